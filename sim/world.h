@@ -19,16 +19,16 @@ namespace plumbline::sim {
 
 struct WorldConfig {
   std::uint64_t seed = 1;
-  std::uint32_t part = 0;  ///< of the run: the noise is another one, the instruments are the same
+  std::uint32_t part = 0;  ///< of a run that is split, as by a kidnapping: noise differs, biases of the unit stay
   LidarConfig lidar;
-  double rpm = 600.0;
+  double rpm = 600.0;            ///< of the LiDAR's head, 300 to 1200
   bool vertical_offsets = true;  ///< of the lasers, in the driver's calibration
   OdometryPreset odometry = OdometryPreset::noisy;
-  Faults faults;          ///< of time, IMU and feet; that of the mount is in what estimators are told
+  Faults faults;          ///< of time, IMU and feet; the mount's error is in the calibration given to estimators
   Conditions conditions;  ///< friction, terrain noise, pushes
   int storey = 0;
-  Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
-  double start_yaw = 0.0;           ///< rad
+  Eigen::Vector2d start_W = Eigen::Vector2d::Zero();  ///< m
+  double start_yaw = 0.0;                             ///< rad
   std::vector<Waypoint> waypoints;  ///< the route, from the start on; fewer than two: stand all the time
   double speed_mps = 0.6;
   double duration_s = 120.0;
@@ -74,7 +74,7 @@ class World {
   /// Advances to the end of the next LiDAR message. False when the route or the time is done (frame untouched).
   /// Throws ScenarioFailure on a fall or a stall.
   [[nodiscard]] bool next(WorldFrame& frame);
-  /// The true one.
+  /// The true calibration, without the mount's error.
   [[nodiscard]] static slam::Calibration calibration();
 
  private:

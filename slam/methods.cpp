@@ -46,6 +46,7 @@ template <class Own>
 MethodRow kiss_icp(MethodRow row) {
   row.make = [](const MethodInput& input) { return make_kiss_icp(input, config_of<Own>(input)); };
   row.standard = false;
+  row.uses_odometry = false;
   return with_config<Own>(std::move(row));
 }
 
@@ -116,14 +117,12 @@ std::vector<MethodRow> odometry_and_slam() {
       odometry_alone<CoarseVgicpConfig>(
           OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
           {.name = "vgicp",
-           .summary =
-               "odometry of our front end with coarse voxels: VGICP on a sliding map, with leg odometry where given"}),
-      odometry_alone<VgicpConfig>(
-          OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
-          {.name = "vgicp_tuned",
-           .summary = "vgicp with the fine voxels and the edges that s_graphs_plus and the other graph methods use",
-           .standard = false,
-           .variant = true}),
+           .summary = "LiDAR odometry: VGICP against a local map, voxels of 0.5 m; uses odometry if given"}),
+      odometry_alone<VgicpConfig>(OdometryKind::vgicp, &LidarOdometryConfig::vgicp,
+                                  {.name = "vgicp_tuned",
+                                   .summary = "vgicp with voxels of 0.2 m and vertical edges, as in the graph methods",
+                                   .standard = false,
+                                   .variant = true}),
       odometry_alone<loam::FloamConfig>(
           OdometryKind::floam, &LidarOdometryConfig::floam,
           {.name = "floam",
@@ -139,22 +138,23 @@ std::vector<MethodRow> odometry_and_slam() {
       kiss_icp<KissIcpIndoorConfig>({.name = "kiss_icp_indoor",
                                      .summary = "kiss_icp with finer voxels and all points of the map, for rooms",
                                      .variant = true}),
-      with_config<LegoLoamConfig>(
-          {.name = "lego_loam",
-           .summary = "LiDAR alone: ground and segments, odometry in two steps, a map of keyframes, LeGO-LOAM",
-           .make = make_by<LegoLoamConfig, make_lego_loam>,
-           .standard = false}),
+      with_config<LegoLoamConfig>({.name = "lego_loam",
+                                   .summary = "LiDAR alone: LeGO-LOAM",
+                                   .make = make_by<LegoLoamConfig, make_lego_loam>,
+                                   .standard = false,
+                                   .uses_odometry = false}),
       with_config<LegoLoamIndoorConfig>(
           {.name = "lego_loam_indoor",
            .summary = "lego_loam that is corrected by its map where rooms show little of the floor, too",
            .make = make_by<LegoLoamIndoorConfig, make_lego_loam>,
            .standard = false,
+           .uses_odometry = false,
            .variant = true}),
-      with_config<MloamConfig>(
-          {.name = "mloam",
-           .summary = "LiDAR alone: M-LOAM for one LiDAR, LOAM with a window of scans and a keyframe map",
-           .make = make_by<MloamConfig, make_mloam>,
-           .standard = false}),
+      with_config<MloamConfig>({.name = "mloam",
+                                .summary = "LiDAR alone: M-LOAM for one LiDAR",
+                                .make = make_by<MloamConfig, make_mloam>,
+                                .standard = false,
+                                .uses_odometry = false}),
       with_config<PclGicpMethodConfig>(
           {.name = "pcl_gicp",
            .summary = "LiDAR odometry: PCL's own GICP against the latest keyframes, started by odometry",
@@ -169,28 +169,28 @@ std::vector<MethodRow> odometry_and_slam() {
                                        .summary = "LiDAR alone: HDL graph SLAM, reimplemented with its authors' indoor "
                                                   "settings, GICP to single keyframes, a floor, loops",
                                        .make = make_by<HdlSlamPaperConfig, make_hdl_slam_paper>,
-                                       .standard = false}),
+                                       .standard = false,
+                                       .uses_odometry = false}),
       with_config<HdlSlamPaperNdtConfig>({.name = "hdl_slam_paper_ndt",
                                           .summary = "hdl_slam_paper with NDT, which its code has by default",
                                           .make = make_by<HdlSlamPaperNdtConfig, make_hdl_slam_paper>,
                                           .standard = false,
+                                          .uses_odometry = false,
                                           .variant = true}),
       with_config<HdlSlamConfig>({.name = "hdl_slam",
                                   .summary = "the graph of s_graphs_plus without walls, rooms and floor layer: its "
                                              "odometry, with leg odometry where given, floor planes, loops",
                                   .make = make_hdl_slam_method,
                                   .standard = false}),
-      with_config<SGraphsConfig>(
-          {.name = "s_graphs",
-           .summary = "s_graphs_plus_paper with rooms of one keyframe's longest opposed walls and without floors",
-           .make = make_s_graphs_method,
-           .standard = false}),
-      with_config<SGraphs2022Config>(
-          {.name = "s_graphs_2022",
-           .summary = "s_graphs by the rules of 2022: windows of length and width, nearest ends, a gate of 0.2",
-           .make = make_s_graphs_2022_method,
-           .standard = false,
-           .variant = true}),
+      with_config<SGraphsConfig>({.name = "s_graphs",
+                                  .summary = "s_graphs_plus_paper without floors; rooms from the walls of one keyframe",
+                                  .make = make_s_graphs_method,
+                                  .standard = false}),
+      with_config<SGraphs2022Config>({.name = "s_graphs_2022",
+                                      .summary = "s_graphs with the room rules of the 2022 program",
+                                      .make = make_s_graphs_2022_method,
+                                      .standard = false,
+                                      .variant = true}),
       with_config<SGraphsPlusPaperConfig>(
           {.name = "s_graphs_plus_paper",
            .summary = "S-Graphs+ with the papers' planes, cut and weights, but rooms of all walls, on our front end",

@@ -20,6 +20,7 @@ struct MethodRow {
   std::function<std::unique_ptr<Method>(const MethodInput&)> make = {};
   bool standard = true;         ///< runs where neither scenario nor command line names methods
   bool needs_odometry = false;  ///< else it assumes constant velocity where there is none
+  bool uses_odometry = true;    ///< false: LiDAR alone, records of odometry and IMU are ignored
   bool variant = false;         ///< another row's method with other defaults
   /// Every value of the method's config struct: those of the tree (which may be null) over the defaults. Throws
   /// InputError. Empty where the method has no config.

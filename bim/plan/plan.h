@@ -11,7 +11,7 @@
 
 namespace plumbline::bim {
 
-/// Rectangle cut out of a face, in the face's own (s, z).
+/// Rectangle cut out of a face, in the face's own (s, z), m.
 struct FaceHole {
   double s0 = 0.0, s1 = 0.0, z0 = 0.0, z1 = 0.0;
 };
@@ -21,12 +21,12 @@ struct FaceHole {
 struct PlanFace {
   int id = -1;
   std::string wall_id;
-  int side = 0;  ///< 0: at offset + thickness (left of a to b), 1: at offset
-  int storey = -1;
+  int side = 0;     ///< 0: at offset + thickness (left of a to b), 1: at offset
+  int storey = -1;  ///< index into Plan::storeys
   Plane plane_W;
-  Eigen::Vector2d p0 = Eigen::Vector2d::Zero();
+  Eigen::Vector2d p0 = Eigen::Vector2d::Zero();  ///< ends in W, m
   Eigen::Vector2d p1 = Eigen::Vector2d::Zero();
-  double z0 = 0.0;
+  double z0 = 0.0;  ///< bottom and top in W, m
   double z1 = 3.0;
   std::vector<FaceHole> holes;  ///< openings, s from p0
   std::vector<int> rooms;       ///< rooms this face bounds (a long wall bounds several), ascending
@@ -35,9 +35,9 @@ struct PlanFace {
 struct PlanRoom {
   int id = -1;
   std::string name;  ///< the room's id in the building
-  int storey = -1;
-  Polygon2 polygon;
-  double z0 = 0.0;
+  int storey = -1;   ///< index into Plan::storeys
+  Polygon2 polygon;  ///< in W, m, counter-clockwise
+  double z0 = 0.0;   ///< bottom and top in W, m
   double z1 = 3.0;
   std::vector<int> faces;       ///< bounding faces, ascending
   std::vector<int> neighbours;  ///< rooms reached through a door or void, ascending

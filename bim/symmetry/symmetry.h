@@ -73,7 +73,7 @@ struct RoomClass {
   std::vector<Isometry2> turns;    ///< exact proper isometries of the first room onto itself, without the identity
 };
 
-/// Symmetries of a building. A robot is a rigid body, so only proper isometries (turns and shifts)
+/// Symmetries of a building. A robot is a rigid body, so only proper isometries (rotations and translations)
 /// confuse it; mirror images are listed apart.
 struct SymmetryReport {
   std::vector<StoreySymmetry> storeys;      ///< proper, from == to, without the identity; by storey, then angle

@@ -58,7 +58,7 @@ int bench(const BenchOptions& options) {
 
 Command add_bench(CommandLine& program) {
   const auto options = std::make_shared<BenchOptions>();
-  CommandLine line = program.add_command("bench", "Measures what a part of the program costs, in CPU time");
+  CommandLine line = program.add_command("bench", "Measures the CPU time of a part of the program");
   std::string parts;
   std::string names;
   for (const BenchPart& part : bench_parts()) {

@@ -19,7 +19,7 @@ std::string check_seed(std::string& text) {
       !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
   const std::string number = digits ? text.substr(std::min(text.find_first_not_of('0'), text.size() - 1)) : "";
   if (!digits || number.size() > most.size() || (number.size() == most.size() && number > most))
-    return "'" + text + "' is no seed; a whole number from 0 to " + std::string(most) + " would be right";
+    return "'" + text + "' is not a seed; give a whole number from 0 to " + std::string(most);
   text = number;
   return {};
 }

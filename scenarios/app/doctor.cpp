@@ -100,7 +100,8 @@ Command add_doctor(CommandLine& program) {
   CommandLine line =
       program.add_command("doctor", "Says what is installed, what is missing, and what that is needed for");
   const auto folder = std::make_shared<std::string>();
-  line.option("FOLDER", *folder, "names and removes instead what killed runs left in this folder and those below it")
+  line.option("FOLDER", *folder,
+              "instead: list and delete temporary files that killed runs left in this folder and below it")
       .takes("DIR");
   line.footer(
       "Example: plumbline doctor\n         plumbline doctor runs\nExit codes: 0 all that the program itself needs is "

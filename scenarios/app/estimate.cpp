@@ -97,7 +97,7 @@ using PlanAndMove = std::pair<std::shared_ptr<const bim::Plan>, std::optional<Ei
 PlanAndMove load_plan(const EstimateArguments& options, const slam::MethodRow& row, const bim::BuildingOptions& taken) {
   if (!row.needs_plan) return {};
   if (options.plan.empty())
-    throw InputError({"--plan", 0, 0}, "is missing; method '" + options.method + "' localizes in a plan");
+    throw InputError({"--plan", 0, 0}, "is required: method '" + options.method + "' localizes in a plan");
   Scenario scenario = scenario_of(options.input.recording);
   scenario.building_options = taken;
   scenario.world = {};

@@ -107,8 +107,8 @@ int identify(const IdentifyOptions& options) {
 
 Command add_identify(CommandLine& program) {
   const auto options = std::make_shared<IdentifyOptions>();
-  CommandLine line =
-      program.add_command("identify", "Maps where in a building a VLP-16 can be localized, and after what walk");
+  CommandLine line = program.add_command(
+      "identify", "Maps where a single scan, or a walk, determines the pose in a building (assumes a VLP-16)");
   line.option("BUILDING", options->building,
               "plan or traffic-editor plan (.yaml) or .ifc; or a scenario, to analyse its planned walks")
       .required();
@@ -116,9 +116,10 @@ Command add_identify(CommandLine& program) {
       line.option("--step", options->map.step_m, "spacing of the map's grid, m [0.5, or what --budget allows]")
           .range(0.1, 5.0);
   options->budget_option =
-      line.option("--budget", options->budget_s,
-                  "time that the map may take on two cores, s; by its count of work, the same on every machine, it "
-                  "chooses a step, the finest that fits and not below --step")
+      line.option(
+              "--budget", options->budget_s,
+              "time budget on two cores, s; the finest grid whose estimated work fits is used, at least --step; the "
+              "same on every machine")
           .range(1.0, 1e6)
           .shows_default();
   options->of_buildings = {
@@ -126,12 +127,12 @@ Command add_identify(CommandLine& program) {
       *options->step_option,
       *options->budget_option,
       line.flag("--across", options->map.across, "storey unknown: aliased poses on other storeys count"),
-      line.flag("--compass", options->map.compass_only, "only with a known heading, which is quicker"),
+      line.flag("--compass", options->map.compass_only, "only with a known initial heading (faster)"),
       line.option("-o,--out", options->out, "page to write (.html), or a directory for identify.html"),
       line.flag("--force", options->force, "replaces the page that is there")};
   line.flag("--json", options->json, "as JSON, every grid point");
   line.option("--threads", options->threads, "threads [2, or the CPUs allowed]").range(1, 1024);
-  options->of_scenarios = {line.option("--seeds", options->seeds, "of a scenario: number of seeds, from 1 on")
+  options->of_scenarios = {line.option("--seeds", options->seeds, "for a scenario: number of seeds, starting at 1")
                                .range(1, 100000)
                                .shows_default()};
   line.footer(

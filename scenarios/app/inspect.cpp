@@ -66,7 +66,8 @@ int inspect(const InspectOptions& options) {
     std::fputs(bim::plan_page().c_str(), stdout);
     return 0;
   }
-  if (options.building.empty()) throw InputError({"BUILDING", 0, 0}, "is missing; name a plan or an .ifc");
+  if (options.building.empty())
+    throw InputError({"BUILDING", 0, 0}, "is required: a plan, .ifc or mesh; see plumbline inspect --help");
   std::optional<bim::MeshFormat> format;
   if (!options.mesh.empty()) format = bim::mesh_format(options.mesh);
   for (const std::string& output : {options.mesh, options.ifc, options.walk})

@@ -10,15 +10,14 @@ void PovertyOptions::declare(CommandLine& line) {
   constexpr double farthest_m = 10'000.0;
   line.option("--every", every, "uses every Nth scan, with all odometry and IMU in between [1]").range(1, most);
   line.option("--without", without,
-              "what scans shall lack, of rings and times: rings makes one ring of all, times gives every return the "
-              "scan's stamp")
+              "drop rings (all returns in one ring) or times (every return gets the scan's stamp)")
       .one_of({"rings", "times"})
       .delimiter(',');
-  line.option("--max-range", max_range_m, "leaves out returns farther than so many metres [none]")
-      .range(0.1, farthest_m);
-  line.option("--beams", beams, "uses the returns in so many narrow cones, as of a LiDAR with fewer rings [all]")
+  line.option("--max-range", max_range_m, "drop returns farther than this, m [none]").range(0.1, farthest_m);
+  line.option("--beams", beams,
+              "keep the returns of N evenly spaced elevation cones, as a LiDAR with N rings would [all]")
       .range(1, most);
-  line.option("--one-of", one_of, "uses one of so many returns, drawn at random [1]").range(1, most);
+  line.option("--one-of", one_of, "keep one return in N, drawn at random [1]").range(1, most);
 }
 
 Poverty PovertyOptions::value() const {

@@ -10,7 +10,7 @@
 
 namespace plumbline::scenarios {
 
-/// What the command line says of a poorer sensor.
+/// Options of `estimate` that degrade a recording: fewer scans, rings, point times or returns.
 struct PovertyOptions {
   int every = 1;
   std::vector<std::string> without;

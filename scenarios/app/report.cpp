@@ -80,7 +80,7 @@ Command add_report(CommandLine& program) {
   line.flag("--3d", options->replay,
             "also write replay.html, the run in three dimensions at any of its times; simulates its scans again");
   line.option("--size-mb", options->megabytes,
-              "most that replay.html may take: scans are left out, away from what is worth a look, until it fits [15]")
+              "maximum size of replay.html; scans far from failures and events are left out until it fits [15]")
       .range(1.0, 1000.0);
   line.flag("--unchecked", options->unchecked, "takes files that were altered since they were written");
   line.footer("Example: plumbline report --3d runs/quickstart-1");

@@ -100,7 +100,7 @@ int simulate(const SimulateArguments& options, slam::MethodTable table) {
 Command add_simulate(CommandLine& program, slam::MethodTable table) {
   const auto options = std::make_shared<SimulateArguments>();
   CommandLine line =
-      program.add_command("simulate", "Records the sensor data of a walk, and the true poses in a file apart");
+      program.add_command("simulate", "Records the sensor data of a walk; true poses go into a separate file");
   line.option("INPUT", options->input, "scenario, plan or building, as for run").takes("SCENARIO").required();
   line.option("-o,--out", options->out, "directory to write").takes("DIR").required();
   options->seed_option = line.seed("--seed", options->seed, "seed [the scenario's]");

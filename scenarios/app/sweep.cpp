@@ -110,7 +110,7 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
     std::fputs(sweep_page().c_str(), stdout);
     return 0;
   }
-  if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is missing; name a sweep file");
+  if (options.file.empty()) throw InputError({"SWEEP", 0, 0}, "is required: a sweep file; see plumbline sweep --help");
   const Sweep sweep = read_sweep(options.file, options.seeds, table);
   for (const std::string& note : sweep.notes) print_note("plumbline: warning: " + note);
   if (options.slurm) {

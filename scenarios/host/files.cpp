@@ -101,17 +101,20 @@ constexpr std::array<FileRow, 20> run_files = {{
      "scores and gates; it appears last, so that its directory is complete. `building.moved_by_m`: added to the "
      "coordinates of a building in map coordinates"},
     {"junit.xml", "gates and methods as JUnit test cases"},
-    {"<method>.tum", "the causal trajectory: each pose as first given, one a scan; SLAM scores use it", false},
+    {"<method>.tum",
+     "the causal trajectory: each pose as first given, one a scan; SLAM scores use it; X_MR of SLAM, X_WR of a "
+     "localization",
+     false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
-    {"<method>.map.ply", "the map, in the method's frame; of a localization, in the plan's", false},
+    {"<method>.map.ply", "the map: x, y, z as float32, m; in M of SLAM, in W of a localization", false},
     {"<method>.map.pcd", "the same map in PCD format", false},
     {"<method>.estimate.json", "planes, rooms, floors, loop closures and the planes of some scans, in the map's frame",
      false},
     {"<method>.hypotheses.jsonl",
      "of a localization, a line for each scan: pose hypotheses with shares and covariances, state, particles", false},
     {"<method>.graph.json", "of a graph method: keyframes, planes, rooms, floors and factors", false},
-    {"truth.tum", "true poses, at 100 Hz and at every scan", false},
-    {"truth_surface.ply", "points of the building that true returns hit"},
+    {"truth.tum", "X_WR: true poses of R in the plan's frame W, at 100 Hz and at every scan", false},
+    {"truth_surface.ply", "points of the building that true returns hit, one per voxel of 0.1 m, in W, m"},
     {"scenario.yaml", "the resolved scenario; `run` of this file, or `replay`, repeats the run"},
     {"building.*", "the building that the scenario names", false},
     {"digests.csv", "a digest for each stage and scan; `diff` and `replay` compare them"},
@@ -123,10 +126,13 @@ constexpr std::array<FileRow, 20> run_files = {{
 
 constexpr std::array<FileRow, 12> recording_files = {{
     {"lidar.pcap", "the LiDAR's packets as the sensor sends them, with nanosecond stamps; not of an `os1_64`"},
-    {"odometry.tum", "odometry poses"},
+    {"odometry.tum", "X_OR: pose of R in the odometry frame O, `t x y z qx qy qz qw`"},
     {"odometry_covariance.csv",
-     "time and the upper triangle of the covariance of each odometry increment, along and about the robot's axes"},
-    {"imu.csv", "t,wx,wy,wz,ax,ay,az in SI units, in the robot's frame"},
+     "header, then time and the upper triangle, row by row, of the 6 x 6 covariance of the motion since the record "
+     "before: right increment (x, y, z, rotation about x, y, z) in R, m and rad"},
+    {"imu.csv",
+     "header, then `t,wx,wy,wz,ax,ay,az`: s, rad/s, m/s²; angular velocity and specific force in R, so (0, 0, 9.81) at "
+     "rest and level"},
     {"recording.yaml",
      "the LiDAR's mount, packets per scan, seed, digest of the sensor data, and the prior of localization"},
     {"recording.bag", "the same data as a ROS 1 bag (LZ4), with `--bag`"},
@@ -148,9 +154,9 @@ constexpr std::array<FileRow, 12> estimate_files = {{
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
      "reported LOST"},
-    {"<method>.tum", "the causal trajectory", false},
+    {"<method>.tum", "the causal trajectory; X_MR of SLAM, X_WR of a localization", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
-    {"<method>.map.ply", "the map", false},
+    {"<method>.map.ply", "the map: x, y, z as float32, m; in M of SLAM, in W of a localization", false},
     {"<method>.map.pcd", "the same map in PCD format", false},
     {"<method>.estimate.json", "planes, rooms, floors, loop closures and the planes of some scans", false},
     {"<method>.hypotheses.jsonl", "of a localization: pose hypotheses after each scan", false},

@@ -66,9 +66,10 @@ std::vector<MetricRow> make_rows() {
       {"map_capped_share", "", Better::lower, "share of the map's points at the cap of 0.5 m",
        field(&S::map, &MapScore::capped_share)},
       {"map_completeness", "", Better::higher,
-       "share of the as-built surface hit by true returns that has a map point within 5 cm",
+       "share of the true return points (one per voxel of 0.1 m, as in `truth_surface.ply`) with a map point within 5 "
+       "cm",
        field(&S::map, &MapScore::completeness)},
-      {"rooms.visited", "", Better::neither, "rooms in which the robot was at least 0.5 m deep for 2 s",
+      {"rooms.visited", "", Better::neither, "rooms in which the robot was at least 0.5 m from the outline for 2 s",
        field(&S::rooms, &RoomScore::visited)},
       {"rooms.found", "", Better::neither, "rooms that the method claims", field(&S::rooms, &RoomScore::found)},
       {"rooms.matched", "", Better::higher,

@@ -24,8 +24,7 @@ std::span<const ResultWord> result_words() {
       {place, to_string(V::overconfident),
        "several poses explain the scans, and the method gave one answer that was wrong or was not held"},
       {place, to_string(V::lucky),
-       "one right answer, held to the end, although the scans had not singled it out when it was given; never a "
-       "success"},
+       "one right answer, held to the end, although the scans had not yet excluded the other poses; never a success"},
       {place, to_string(V::late), "no answer, or one held for less than 5 s or 1 m"},
       {place, to_string(V::lost),
        "the right answer was given and lost or given up, or the method reports LOST at the end"},
@@ -34,7 +33,7 @@ std::span<const ResultWord> result_words() {
        "the alternatives are nearly excluded, or too late for an answer of 5 s and 1 m; one right answer and an honest "
        "ambiguity are both right"},
       {evidence, to_string(Evidence::ambiguous),
-       "another pose explains the scans as well as the true one, by what was built alone"},
+       "another pose explains the scans as well as the true one, by the building alone, furniture left out"},
       {failure, to_string(F::never_sampled), "the true pose was never among hypotheses and kept particles"},
       {failure, to_string(F::depleted), "the true pose was among hypotheses and kept particles and was dropped"},
       {failure, to_string(F::alias_preferred), "a pose that looked like the true one at the start was chosen"},

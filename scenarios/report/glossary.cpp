@@ -17,8 +17,9 @@ namespace {
 /// Words of pages that are neither verdicts nor metrics, and keys of results.json that no gate can ask for.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> terms = {
     {{"t = 3.4 s",
-      "the run's clock, on which all time lines, marks, sentences and the terminal's `found s` are; its first scan is "
-      "there at 0.1 s or so. `localization.converged_at_s` and `localization.identifiable_at_s` count from that scan"},
+      "time on the run's clock, as in all time lines, marks, sentences and the terminal's `found s`; the first scan is "
+      "at "
+      "about 0.1 s. `localization.converged_at_s` and `localization.identifiable_at_s` count from that scan"},
      {"consistent poses", "poses at which the plan explains all scans so far, the true one among them"},
      {"marginally identifiable",
       "the scans favour the true pose over every other, but not enough to exclude all of them; this is the evidence "

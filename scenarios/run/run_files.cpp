@@ -111,10 +111,12 @@ void write_run_files(const std::string& dir, const ResolvedScenario& resolved, c
 
 void check_run_directory(const std::string& dir) {
   if (!fs::is_directory(dir)) throw InputError({dir, 0, 0}, "no such directory; a run directory is expected");
+  if (fs::exists(dir + "/recording.yaml"))
+    throw InputError({dir, 0, 0}, "is a recording, not a run; run plumbline estimate on it first");
   for (const char* name : {"scenario.yaml", "digests.csv", "truth.tum", "truth_surface.ply"})
     if (!fs::exists(dir + "/" + name))
       throw InputError({dir, 0, 0}, "is no run directory, since it has no " + std::string(name) +
-                                        "; name one that plumbline run wrote");
+                                        "; name one that plumbline run wrote, or score one of plumbline estimate");
 }
 
 FinishedRun read_run(const std::string& dir) {

@@ -58,8 +58,8 @@ std::string find_input(const std::string& input) {
                          fs::path(found.front()).lexically_relative(folder).replace_extension().string() + "'");
   if (is_folder) return input;
   const std::string close = did_you_mean(input, names);
-  throw InputError({input, 0, 0}, "is no file and no scenario of the library; " +
-                                      (close.empty() ? std::string("`plumbline scenarios` lists those")
+  throw InputError({input, 0, 0}, "is not a file and not a library scenario; " +
+                                      (close.empty() ? std::string("`plumbline scenarios` lists the latter")
                                                      : "did you mean '" + close + "'?"));
 }
 

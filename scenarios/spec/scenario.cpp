@@ -91,6 +91,20 @@ void check_pushes(const PushesSpec& pushes, const Tree& tree) {
     throw InputError(mark_at(tree, {"pushes", "min_n"}), "min_n must not be greater than max_n");
 }
 
+/// The known name that is meant: the closest, else all that begin with the given one and an underscore, or are so in
+/// a block.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  const std::string close = did_you_mean(name, known);
+  if (!close.empty()) return "'" + close + "'";
+  std::vector<std::string> longer;
+  for (const std::string& each : known)
+    if (!name.empty() && (each.starts_with(name) || each.find("." + name) != std::string::npos)) longer.push_back(each);
+  std::string list;
+  for (std::size_t i = 0; i < longer.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == longer.size() ? " or " : ", ") + ("'" + longer[i] + "'");
+  return list;
+}
+
 }  // namespace
 
 void check_gate(const GateSpec& gate, const Tree& written) {
@@ -98,10 +112,11 @@ void check_gate(const GateSpec& gate, const Tree& written) {
   if (score::find_metric(gate.metric) != nullptr) return;
   std::vector<std::string> known;
   for (const score::MetricRow& row : score::metrics()) known.emplace_back(row.name);
-  const std::string close = did_you_mean(gate.metric, known);
+  const std::string close = suggestion(gate.metric, known);
   const Tree* metric = written.is_map() ? written.find("metric") : nullptr;
   throw InputError(metric != nullptr ? metric->mark : written.mark,
-                   "unknown metric '" + gate.metric + "'" + (close.empty() ? "" : "; did you mean '" + close + "'?"));
+                   "unknown metric '" + gate.metric + "'; " +
+                       (close.empty() ? "docs/reference/metrics.md lists them" : "did you mean " + close + "?"));
 }
 
 void check_name(const std::string& name, const Mark& mark) {

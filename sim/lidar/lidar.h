@@ -22,10 +22,10 @@ struct ReturnLabels {
   std::vector<std::int32_t> triangle;    ///< of the mesh that is seen (without optics: less panes), -1 no return
   std::vector<std::int32_t> room;        ///< index into Building::rooms, -1 in none
   std::vector<std::uint8_t> path;        ///< what happened to the light, see light_path
-  std::vector<Eigen::Vector3d> point_W;  ///< where it was given back, without noise; zero without a return
+  std::vector<Eigen::Vector3d> point_W;  ///< where it was given back, m, without noise; zero without a return
 };
 
-/// One message as it was fired. Give the same one again and again: its memory is used again.
+/// One message as it was fired. Reuse one object across calls; its memory is kept.
 struct Sweep {
   std::vector<slam::Vlp16Packet> packets;   ///< none of a model that sends no Velodyne packets
   std::vector<std::uint16_t> azimuth_cdeg;  ///< of the head at each firing's start

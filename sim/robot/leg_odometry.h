@@ -56,7 +56,7 @@ class LegOdometry {
   Pose X_OR_;
   Eigen::Vector3d v_R_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_R_before_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gyro_bias_R_ = Eigen::Vector3d::Zero();  ///< learnt, rad/s
+  Eigen::Vector3d gyro_bias_R_ = Eigen::Vector3d::Zero();  ///< estimated, rad/s
   std::array<double, 4> contact_s_{};                      ///< without a break so far
   LegHeight height_;
   LegSlope slope_;

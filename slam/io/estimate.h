@@ -35,14 +35,15 @@ struct WallMatch {
 
 /// A pose that the robot may have.
 struct Hypothesis {
-  double mass = 0.0;  ///< share of the belief, in [0, 1]
+  double mass = 0.0;  ///< posterior probability in [0, 1]; those of one Output sum to at most 1
   Pose X_WR;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw)
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw) in W, m and rad
   std::string room;                                      ///< PlanRoom name, or empty
   std::vector<WallMatch> walls = {};  ///< walls as associated at this pose; only with scans that made an update
 };
 
-/// One particle as drawn in the report.
+/// One particle of a sample for the report: x, y in W, m; yaw, rad; weight as in the whole set, so that the weights of
+/// a sample need not sum to 1. Its storey is not kept.
 struct Particle {
   double x = 0.0, y = 0.0, yaw = 0.0, weight = 0.0;
 };

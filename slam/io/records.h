@@ -15,7 +15,8 @@ using Nanoseconds = std::int64_t;
 
 [[nodiscard]] constexpr double seconds(Nanoseconds t) { return static_cast<double>(t) * 1e-9; }
 
-/// Leg or wheel odometry: pose of the robot in the odometry frame O, which starts at the first pose.
+/// Leg or wheel odometry: pose of the robot in the odometry frame O, which starts at the first pose. The covariance
+/// travels separately, see odometry_covariance.h.
 struct Odometry {
   Nanoseconds stamp = 0;
   Pose X_OR;
@@ -24,8 +25,9 @@ struct Odometry {
 /// Inertial measurement in R.
 struct Imu {
   Nanoseconds stamp = 0;
-  Eigen::Vector3d angular_velocity_R = Eigen::Vector3d::Zero();     ///< rad/s
-  Eigen::Vector3d linear_acceleration_R = Eigen::Vector3d::Zero();  ///< m/s^2, includes -g: about (0, 0, 9.81) at rest
+  Eigen::Vector3d angular_velocity_R = Eigen::Vector3d::Zero();  ///< rad/s
+  Eigen::Vector3d linear_acceleration_R =
+      Eigen::Vector3d::Zero();  ///< specific force, m/s^2: (0, 0, 9.81) at rest and level
 };
 
 /// One spinning-LiDAR message: `columns` firings of `rings` lasers. Index of a return: column * rings + ring, ring 0
@@ -45,7 +47,7 @@ struct Scan {
 /// What a robot's owner measured once: where the sensor sits.
 struct Calibration {
   Pose X_RL;
-  double sensor_height_m = 0.66;  ///< height of L above the floor when standing
+  double sensor_height_m = 0.66;  ///< m, of L above the floor when the robot stands
 };
 
 }  // namespace plumbline::slam

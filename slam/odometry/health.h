@@ -99,14 +99,15 @@ struct ExpectedStep {
 [[nodiscard]] double surprise_m(const Pose& step, const Pose& expected);
 
 /// Whether scan matching is trusted: for each scan at once, and as a state with hysteresis. All that it compares with
-/// comes from the scans before: no sensor's noise, no robot's speed.
+/// comes from the scans before: no sensor's noise, no robot's speed. "Usual" is the median share of matched features
+/// over the latest accepted scans.
 class OdometryHealth {
  public:
   explicit OdometryHealth(const HealthConfig& config) : config_(config) {}
 
   /// Assesses one registration. step: the robot's motion since the scan before. True: accept it.
   [[nodiscard]] bool assess(const Registration& registration, const Pose& step, const ExpectedStep& expected);
-  /// Share of its features that a scan matches as a rule; 1 before enough of them did.
+  /// That median, in [0, 1]; 1 before enough scans were accepted.
   [[nodiscard]] double usual_matched() const;
   /// Whether scans, matched as is usual, measure a motion by themselves. Where most of what they see contradicts the
   /// map, as among vehicles that move along or rows of leaves, a pose that fits the rest may be any.

@@ -152,7 +152,7 @@ VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan)
     out.fine.sigma_tangent_m *= lattice_slack;
   out.registered = thinned(out.surfels, most_registered);
   for (std::size_t k = 0; k < out.registered.size(); k += static_cast<std::size_t>(config_.coarse_share))
-    out.few.push_back(out.registered[k]);
+    out.subsample.push_back(out.registered[k]);
   return out;
 }
 
@@ -297,7 +297,8 @@ Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
     Registration found;
     found.X_MR = start;
     for (std::size_t level = maps_.size(); level-- > 1;)
-      found = align(scan_.few, maps_[level], found.X_MR, std::nullopt, coarser(registration_, maps_[level].voxel_m()));
+      found = align(scan_.subsample, maps_[level], found.X_MR, std::nullopt,
+                    coarser(registration_, maps_[level].voxel_m()));
     if (found.matched > best.matched) best = found;
   }
   return best;

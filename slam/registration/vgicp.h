@@ -90,10 +90,11 @@ class VgicpOdometry {
   /// X_OR: leg odometry at scan.stamp, in a frame whose z is up: its increments are start and prior, its tilt a prior;
   /// neither is used where odometry is not valid.
   [[nodiscard]] Registration update(const DeskewedScan& scan, const Pose& X_OR);
-  /// The two halves of update(): where the scan fits, and taking it in there, into the map only if `mapped`. Where
-  /// fewer of its surfels fit than is usual, coarser maps place it first, from several starts.
+  /// First half of update(): registers the scan. If fewer than `usual_matched` of its surfels match, coarser maps are
+  /// tried first, from several starts.
   [[nodiscard]] Registration match(const DeskewedScan& scan, const OdometrySample& odometry,
                                    double usual_matched = 0.0);
+  /// Second half of update(): stores the scan at X_MR, in the map only if `mapped`.
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
@@ -107,7 +108,7 @@ class VgicpOdometry {
   struct ScanFeatures {
     std::vector<Surfel> surfels;
     std::vector<Surfel> registered;  ///< those that are matched, evenly spread where there are many ...
-    std::vector<Surfel> few;         ///< ... and a share of these
+    std::vector<Surfel> subsample;   ///< ... and a share of these
     std::vector<Eigen::Vector3d> edges_R;
     std::vector<Eigen::Vector3d> rough_R;
     std::vector<Eigen::Vector3d> returns_R;  ///< thinned, where they were asked for

@@ -14,6 +14,7 @@
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/scenario_schema.h"
 #include "scenarios/sweep/sweep_schema.h"
+#include "slam/io/recordings/recording_info.h"
 #include "slam/methods.h"
 
 namespace plumbline::docs {
@@ -50,7 +51,10 @@ std::string overview_of_methods() {
   for (const slam::MethodRow& row : slam::methods())
     table.add({row.config_schema ? "[`" + std::string(row.name) + "`](#" + std::string(row.name) + ")"
                                  : markdown_code(row.name),
-               std::string(row.summary), row.needs_plan ? "needed" : "", row.needs_odometry ? "needed" : "optional",
+               std::string(row.summary), row.needs_plan ? "needed" : "",
+               row.needs_odometry  ? "needed"
+               : row.uses_odometry ? "optional"
+                                   : "not used",
                row.standard ? "yes" : ""});
   table.add({markdown_code(scenarios::truth_method), "the true poses; its errors are 0, which checks the scores", "",
              "", ""});
@@ -70,7 +74,8 @@ std::string methods_page() {
   std::string page = R"md(# Methods
 
 A scenario, `run --method` and `estimate --method` name methods. Those marked as default run where none is named.
-Localization needs the plan of the building. Where odometry is optional, a method without it assumes constant velocity.
+Localization needs the plan of the building. Where odometry is optional and absent, the motion prior is
+constant velocity. `not used`: the method reads LiDAR alone.
 
 )md";
   page += overview_of_methods() + R"md(
@@ -122,8 +127,29 @@ in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and m
 
 )md" + file_table(Kind::run) +
          "\n## A recording: `plumbline simulate`\n\n" + file_table(Kind::recording) +
-         "\n## An estimate: `plumbline estimate`\n\n" + file_table(Kind::estimate) +
-         "\n## A sweep: `plumbline sweep`\n\n" + file_table(Kind::sweep);
+         "\n## An estimate: `plumbline estimate`\n\n" + file_table(Kind::estimate) + R"md(
+### JSON files
+
+- `<method>.hypotheses.jsonl`, a line for each scan: `stamp_ns`, `state`, `hypotheses` and, of some scans, `particles`, each
+  `[x, y, yaw, weight]` in W. A hypothesis has `mass` (share, 0 to 1), `room`, `pose` (X_WR: x, y, z, qx, qy, qz, qw),
+  `covariance` (3 x 3 of x, y, yaw, row by row, m and rad) and `walls`: `faces`, ids of the plan's faces, and `p0` and
+  `p1`, the ends of the observed patch in R, m.
+- `<method>.estimate.json`: `frame` (`map` or `world`); `planes`: `n` and `d` with n.p + d = 0, ends `p0` and `p1`,
+  heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`; `loops`:
+  `from_ns`, `to_ns`, and `pose`, that of the robot at `to_ns` in its frame at `from_ns`. All in m.
+)md" + "\n## A sweep: `plumbline sweep`\n\n" +
+         file_table(Kind::sweep);
+}
+
+std::string recording_page() {
+  return R"md(# Description files
+
+`recording.yaml` of a recording, and the file that `estimate --description` takes: what is known of a robot besides the
+records of its sensors. [Recordings](../guide/recordings.md#mount) has an example.
+
+## The file
+
+)md" + schema_tables(SchemaVisitor::sections_of<slam::RecordingInfo>());
 }
 
 std::string index_page() {
@@ -136,6 +162,7 @@ test compares them. Change the code, not the pages.
 - [plan.md](plan.md): plan files, every key
 - [scenario.md](scenario.md): scenario files, every key
 - [sweep.md](sweep.md): sweep files, every key
+- [recording.md](recording.md): description files of recordings, every key
 - [methods.md](methods.md): methods and their configs
 - [metrics.md](metrics.md): metrics, verdicts, causes of failure
 - [warnings.md](warnings.md): warnings of readers
@@ -152,6 +179,7 @@ std::vector<Page> reference_pages() {
           {"methods.md", methods_page()},
           {"metrics.md", metrics_page()},
           {"plan.md", bim::plan_page()},
+          {"recording.md", recording_page()},
           {"scenario.md", scenarios::scenario_page()},
           {"sweep.md", scenarios::sweep_page()},
           {"warnings.md", warnings_page()}};

@@ -90,6 +90,10 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
          {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"});
   refuse(with(scenario_, "short.plan.yaml", "none.plan.yaml"), plan_, {"short.yaml:5:", "none.plan.yaml"});
   refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
+  refuse(with(scenario_, "metric: ate_aligned_rmse_m", "metric: ate"), plan_,
+         {"unknown metric 'ate'; did you mean 'ate_rmse_m', 'ate_aligned_rmse_m' or 'ate_final_rmse_m'?"});
+  refuse(with(scenario_, "metric: ate_aligned_rmse_m", "metric: none_of_them"), plan_,
+         {"unknown metric 'none_of_them'; docs/reference/metrics.md lists them"});
   write_file(folder_ / "short.yaml", with(scenario_, "method: vgicp", "method: vgipc"));
   refuse_file("short.yaml", {"short.yaml:15:", "unknown method 'vgipc'", "'vgicp'"}, {"--method", "truth"});
   write_file(folder_ / "short.yaml", with(scenario_, "odometry, vgicp", "odometry, vgcip"));
@@ -147,7 +151,7 @@ TEST_F(BadInput, CommandLine) {
   refuse_line({"run", input, "--sed", "1"}, "unknown option '--sed'; did you mean '--seed'?");
   refuse_line({"generate", "corridor", "--rooms", "4", "--widths", "3", "-o", "-"}, "unknown option '--widths'");
   for (const char* seed : {"-1", "", "1.5", "1e3", "9200000000000000001", "99999999999999999999"})
-    refuse_line({"run", input, "--seed", seed, "--out", folder_ / "out"}, "is no seed; a whole number from 0 to");
+    refuse_line({"run", input, "--seed", seed, "--out", folder_ / "out"}, "is not a seed; give a whole number from 0 to");
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "nan"}, "from 0.1 to 5");
   for (const char* until : {"-5", "0", "nan", "inf", "1e300"})
     refuse_line({"replay", folder_ / "nothing", "--until", until}, "a number above 0");
@@ -155,6 +159,14 @@ TEST_F(BadInput, CommandLine) {
   for (const char* command : {"score", "report", "replay"})
     refuse_line({command, folder_ / "bare"}, "is no run directory, since it has no scenario.yaml");
   refuse_line({"diff", folder_ / "bare", folder_ / "bare"}, "holds no digests.csv");
+  fs::create_directory(folder_ / "records");
+  write_file(folder_ / "records/recording.yaml", "recording: 1\n");
+  refuse_line({"score", folder_ / "records"}, "is a recording, not a run; run plumbline estimate on it first");
+  refuse_line({"inspect"}, "BUILDING: is required: a plan, .ifc or mesh; see plumbline inspect --help");
+  refuse_line({"sweep"}, "SWEEP: is required: a sweep file; see plumbline sweep --help");
+  refuse_line({"inspect", input}, "this is a scenario, not a plan; name its building, short.plan.yaml");
+  write_file(folder_ / "other.yaml", "sweep: 1\n");
+  refuse_line({"inspect", folder_ / "other.yaml"}, "not a plan file; the first key must be 'plan: 1'");
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "-o", folder_ / "h.txt"}, "must be a page");
   const Outcome too_long = plumbline({"run", input, "--out", folder_ / std::string(300, 'n')});
   EXPECT_EQ(too_long.code, 3);

@@ -231,11 +231,24 @@ class PlanBuilder {
   std::vector<std::size_t> room_entries_;  ///< entry each room came from
 };
 
+bool is_scenario(const Tree& tree) {
+  return tree.is_map() && !tree.as_map().empty() && tree.as_map().front().first == "scenario";
+}
+
+/// ", FILE", where a scenario says it.
+std::string building_of(const Tree& scenario) {
+  const Tree* building = scenario.find("building");
+  return building != nullptr && std::holds_alternative<std::string>(building->value) ? ", " + building->as_string()
+                                                                                     : "";
+}
+
 }  // namespace
 
 PlanFile plan_entries(const Tree& tree) {
   if (!tree.is_map() || tree.as_map().empty() || tree.as_map().front().first != "plan")
-    throw InputError(tree.mark, "this is no plan; its first key must be 'plan: 1'");
+    throw InputError(tree.mark, is_scenario(tree)
+                                    ? "this is a scenario, not a plan; name its building" + building_of(tree)
+                                    : "not a plan file; the first key must be 'plan: 1'");
   PlanFile plan = from_tree<PlanFile>(tree);
   check_plan(plan, tree);
   return plan;

@@ -218,8 +218,9 @@ std::string symmetry_text(const bim::Building& building, const bim::SymmetryRepo
             rooms_text(building, like) + "\n";
   for (const auto& part : by_storeys(report.reflections))
     text += motions_text("no confusion for a robot: " + storey(part.front().from), part);
-  return "symmetry\n" +
-         (text.empty() ? "  none: no turn or shift maps the building, a storey or a room onto another\n" : text);
+  return "symmetry\n" + (text.empty()
+                             ? "  none: no rotation or translation maps the building, a storey or a room onto another\n"
+                             : text);
 }
 
 }  // namespace plumbline::scenarios

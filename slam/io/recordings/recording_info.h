@@ -20,12 +20,12 @@ struct MountSpec {
   std::optional<double> height_m;
   template <class V>
   void visit(V& v) {
-    v("position_m", position_m, Field{.doc = "origin of the LiDAR in the robot's frame: [x, y, z]"});
+    v("position_m", position_m, Field{.doc = "origin of the LiDAR in the robot's frame, m: [x, y, z]"});
     v("quaternion_xyzw", quaternion_xyzw,
       Field{.doc = "attitude of the LiDAR in the robot's frame: [x, y, z, w], x forward, z up"});
     v("height_m", height_m,
-      Field{.doc =
-                "height of the LiDAR above the floor when the robot stands; measured by the first scans when not given",
+      Field{.doc = "height of the LiDAR above the floor when the robot stands, m; measured by the first scans when not "
+                   "given",
             .min = 0.0,
             .max = 100.0});
   }
@@ -39,11 +39,12 @@ struct MessageSpec {
   template <class V>
   void visit(V& v) {
     v("packets_per_message", packets_per_message,
-      Field{
-          .doc = "one turn, rounded up, as drivers cut; found from the packets when not given", .min = 1, .max = 2000});
+      Field{.doc = "one turn, rounded up, as drivers split it; found from the packets when not given",
+            .min = 1,
+            .max = 2000});
     v("vertical_offsets", vertical_offsets, Field{.doc = "lasers start up to 11.2 mm above or below the origin"});
     v("period_s", period_s,
-      Field{.doc = "time from one cloud to the next, for a folder of clouds, which have no stamps",
+      Field{.doc = "seconds from one cloud to the next, for a folder of clouds, which have no stamps",
             .min = 0.001,
             .max = 60.0});
   }
@@ -56,8 +57,8 @@ struct RecordingPrior {
   std::optional<std::string> storey;
   template <class V>
   void visit(V& v) {
-    v("yaw_rad", yaw_rad, Field{.doc = "compass: heading in the plan at the start", .min = -7.0, .max = 7.0});
-    v("yaw_sigma_rad", yaw_sigma_rad, Field{.doc = "of the compass", .min = 1e-4, .max = 7.0});
+    v("yaw_rad", yaw_rad, Field{.doc = "compass: heading in the plan at the start, rad", .min = -7.0, .max = 7.0});
+    v("yaw_sigma_rad", yaw_sigma_rad, Field{.doc = "standard deviation of the compass, rad", .min = 1e-4, .max = 7.0});
     v("storey", storey, Field{.doc = "storey of the start"});
   }
 };

@@ -49,6 +49,7 @@ struct Step {
 };
 static_assert(sizeof(Step) == 32);
 
+/// In R: rad/s; m/s², specific force ((0, 0, 9.81) at rest and level).
 struct Imu {
   std::int64_t stamp_ns = 0;
   double angular_velocity[3] = {};
@@ -56,7 +57,7 @@ struct Imu {
 };
 static_assert(sizeof(Imu) == 56);
 
-/// Position, then the quaternion x, y, z, w.
+/// Position, m, then the unit quaternion x, y, z, w.
 struct Pose {
   double t[3] = {};
   double q[4] = {};
@@ -88,10 +89,11 @@ static_assert(sizeof(Output) == 72);
 struct Hypothesis {
   double mass = 0.0;
   Pose X_WR;
-  double covariance[6] = {};  ///< xx, xy, xyaw, yy, yyaw, yawyaw
+  double covariance[6] = {};  ///< xx, xy, xyaw, yy, yyaw, yawyaw; m², m rad, rad²
 };
 static_assert(sizeof(Hypothesis) == 112);
 
+/// x, y in W, m; yaw, rad.
 struct Particle {
   float x = 0.0F, y = 0.0F, yaw = 0.0F, weight = 0.0F;
 };

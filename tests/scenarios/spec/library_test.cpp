@@ -59,7 +59,7 @@ TEST(Library, ANameOfNoScenarioIsRefusedWithWhereTheNamesAre) {
   EXPECT_NE(input_error([] { static_cast<void>(find_input("quickstrt")); }).find("did you mean 'quickstart'?"),
             std::string::npos);
   EXPECT_EQ(input_error([] { static_cast<void>(find_input("nosuch")); }),
-            "nosuch: is no file and no scenario of the library; `plumbline scenarios` lists those");
+            "nosuch: is not a file and not a library scenario; `plumbline scenarios` lists the latter");
   EXPECT_EQ(find_input("nosuch.yaml"), "nosuch.yaml");
 }
 
