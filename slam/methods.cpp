@@ -177,33 +177,38 @@ std::vector<MethodRow> odometry_and_slam() {
                                           .standard = false,
                                           .uses_odometry = false,
                                           .variant = true}),
-      with_config<HdlSlamConfig>({.name = "hdl_slam",
-                                  .summary = "the graph of s_graphs_plus without walls, rooms and floor layer: its "
-                                             "odometry, with leg odometry where given, floor planes, loops",
-                                  .make = make_hdl_slam_method,
-                                  .standard = false}),
-      with_config<SGraphsConfig>({.name = "s_graphs",
-                                  .summary = "s_graphs_plus_paper without floors; rooms from the walls of one keyframe",
-                                  .make = make_s_graphs_method,
-                                  .standard = false}),
+      with_config<KeyframeGraphConfig>(
+          {.name = "keyframe_graph",
+           .summary = "pose graph of our front end: s_graphs_plus without walls, rooms and floor layer; its "
+                      "odometry, with leg odometry where given, floor planes, loops",
+           .make = make_keyframe_graph_method,
+           .standard = false,
+           .former = "hdl_slam",
+           .seed_name = "hdl_slam"}),
+      with_config<SGraphsConfig>(
+          {.name = "s_graphs",
+           .summary = "s_graphs_plus_all_walls without floors; rooms from the walls of one keyframe",
+           .make = make_s_graphs_method,
+           .standard = false}),
       with_config<SGraphs2022Config>({.name = "s_graphs_2022",
                                       .summary = "s_graphs with the room rules of the 2022 program",
                                       .make = make_s_graphs_2022_method,
                                       .standard = false,
                                       .variant = true}),
-      with_config<SGraphsPlusPaperConfig>(
-          {.name = "s_graphs_plus_paper",
+      with_config<SGraphsPlusAllWallsConfig>(
+          {.name = "s_graphs_plus_all_walls",
            .summary = "S-Graphs+ with the papers' planes, cut and weights, but rooms of all walls, on our front end",
-           .make = make_s_graphs_plus_paper_method,
-           .standard = false}),
-      with_config<SGraphsPlusPrintedConfig>(
-          {.name = "s_graphs_plus_printed",
-           .summary =
-               "s_graphs_plus_paper with rooms as published: one keyframe's planes, matched by centre, one factor per "
-               "observation",
-           .make = make_s_graphs_plus_printed_method,
+           .make = make_s_graphs_plus_all_walls_method,
            .standard = false,
-           .variant = true}),
+           .former = "s_graphs_plus_paper",
+           .seed_name = "s_graphs_plus_paper"}),
+      with_config<SGraphsPlusPrintedConfig>({.name = "s_graphs_plus_printed",
+                                             .summary = "s_graphs_plus_all_walls with rooms as published: one "
+                                                        "keyframe's planes, matched by centre, one factor per "
+                                                        "observation",
+                                             .make = make_s_graphs_plus_printed_method,
+                                             .standard = false,
+                                             .variant = true}),
       with_config<SGraphsPlusConfig>({.name = "s_graphs_plus",
                                       .summary = "S-Graphs+: walls, rooms, floors and loops in one four-layered graph",
                                       .make = make_s_graphs_plus_method}),

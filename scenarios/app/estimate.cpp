@@ -165,7 +165,7 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   if (row.needs_odometry && !input.has_odometry)
     throw InputError({options.input.recording, 0, 0}, "holds no odometry, which method '" + options.method +
                                                           "' needs; vgicp and s_graphs_plus do without");
-  input.seed = method_seed(run_seed(options, info), row.name);
+  input.seed = method_seed(run_seed(options, info), seed_name(row));
   input.calibration = slam::calibration_of(info);
   std::tie(input.plan, moved_by) = load_plan(options, row, info.plan);
   if (input.plan) {

@@ -25,7 +25,7 @@ RunMethods make_methods(const ResolvedScenario& resolved) {
     const slam::MethodRow* row = row_of(name, resolved.table);
     if (row == nullptr) throw InternalError("method '" + name + "' is not in the table");
     slam::MethodInput input;
-    input.seed = method_seed(resolved.scenario.seed, row->name);  // whatever it is fed
+    input.seed = method_seed(resolved.scenario.seed, seed_name(*row));  // whatever it is fed
     input.calibration = resolved.calibration;
     if (row->needs_plan) {
       input.plan = resolved.building->plan_as_planned();

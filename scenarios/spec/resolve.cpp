@@ -254,6 +254,10 @@ void check_methods(const std::vector<std::string>& names, const std::vector<Mark
     if (names[i].find('=') != std::string::npos)
       throw InputError(marks[i],
                        "'" + names[i] + "' is no name; a process is {name: NAME, command: [PROGRAM, ARGUMENT]}");
+    for (const slam::MethodRow& row : table)
+      if (!row.former.empty() && row.former == choice.method)
+        throw InputError(marks[i], "method '" + names[i] + "' is now called '" +
+                                       MethodChoice{std::string(row.name), choice.sensors}.label() + "'");
     const std::string close = did_you_mean(choice.method, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;

@@ -38,7 +38,7 @@ RoomLayerConfig printed_rooms() {
 
 }  // namespace
 
-SGraphsPlusPaperConfig::SGraphsPlusPaperConfig() {
+SGraphsPlusAllWallsConfig::SGraphsPlusAllWallsConfig() {
   plane_source = PlaneSource::ransac;
   ransac.source = RansacSource::pcl;
   pose_weights = PoseWeights::fitness;

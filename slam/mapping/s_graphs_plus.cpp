@@ -358,8 +358,8 @@ std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input) {
   return make(input, config_of<SGraphsPlusConfig>(input));
 }
 
-std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input) {
-  return make(input, config_of<SGraphsPlusPaperConfig>(input));
+std::unique_ptr<Method> make_s_graphs_plus_all_walls_method(const MethodInput& input) {
+  return make(input, config_of<SGraphsPlusAllWallsConfig>(input));
 }
 
 std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input) {
@@ -374,8 +374,8 @@ std::unique_ptr<Method> make_s_graphs_2022_method(const MethodInput& input) {
   return make(input, config_of<SGraphs2022Config>(input));
 }
 
-std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input) {
-  return make(input, config_of<HdlSlamConfig>(input));
+std::unique_ptr<Method> make_keyframe_graph_method(const MethodInput& input) {
+  return make(input, config_of<KeyframeGraphConfig>(input));
 }
 
 }  // namespace plumbline::slam

@@ -113,19 +113,20 @@ struct SGraphsPlusConfig {
   }
 };
 
-/// S-Graphs+ as printed, with the parameters of the papers' code [lsg2022].
-struct SGraphsPlusPaperConfig : SGraphsPlusConfig {
-  SGraphsPlusPaperConfig();
+/// S-Graphs+ with the planes, cut, weights and parameters of the papers' code [lsg2022], but rooms of all walls of a
+/// storey.
+struct SGraphsPlusAllWallsConfig : SGraphsPlusConfig {
+  SGraphsPlusAllWallsConfig();
 };
 
 /// S-Graphs of 2022: its rooms come from the planes of one keyframe, and there is no floor layer.
-struct SGraphsConfig : SGraphsPlusPaperConfig {
+struct SGraphsConfig : SGraphsPlusAllWallsConfig {
   SGraphsConfig();
 };
 
 /// S-Graphs+ as printed in its rooms, too: clusters of free space with the newest keyframe's own planes, known again by
 /// their centres, a factor each look [bavle2023, section IV-C].
-struct SGraphsPlusPrintedConfig : SGraphsPlusPaperConfig {
+struct SGraphsPlusPrintedConfig : SGraphsPlusAllWallsConfig {
   SGraphsPlusPrintedConfig();
 };
 
@@ -135,10 +136,10 @@ struct SGraphs2022Config : SGraphsConfig {
   SGraphs2022Config();
 };
 
-/// The same graph without walls, rooms and floor layer, in the style of HDL graph SLAM [koide2019]: keyframes, our
-/// odometry, floor plane and loop closures.
-struct HdlSlamConfig : SGraphsPlusConfig {
-  HdlSlamConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
+/// The same graph without walls, rooms and floor layer: keyframes, our odometry, floor plane and loop closures. Not HDL
+/// graph SLAM [koide2019], which is in slam/baselines/hdl_slam_paper.
+struct KeyframeGraphConfig : SGraphsPlusConfig {
+  KeyframeGraphConfig() { parts = {.walls = false, .rooms = false, .floors = false, .loops = true}; }
 };
 
 /// S-Graphs+ [bavle2023, Fig. 2]: odometry, walls, free-space rooms, floors and loops in one four-layered graph.
@@ -208,10 +209,10 @@ class SGraphsPlus : public Method {
 
 /// All assume constant velocity where there is no odometry.
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_method(const MethodInput& input);
-[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_paper_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_all_walls_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_plus_printed_method(const MethodInput& input);
 [[nodiscard]] std::unique_ptr<Method> make_s_graphs_2022_method(const MethodInput& input);
-[[nodiscard]] std::unique_ptr<Method> make_hdl_slam_method(const MethodInput& input);
+[[nodiscard]] std::unique_ptr<Method> make_keyframe_graph_method(const MethodInput& input);
 
 }  // namespace plumbline::slam

@@ -65,7 +65,7 @@ std::vector<std::string> all_methods() {
 
 slam::MethodInput method_input(const SimulatedWalk& walk, const std::string& method, double yaw_error) {
   slam::MethodInput input;
-  input.seed = method_seed(1, method);
+  input.seed = method_seed(1, seed_name(*slam::find_method(method)));
   input.calibration = sim::World::calibration();
   input.plan = walk.plan;
   input.prior.yaw_W = wrap_angle(walk.X_WR_start.yaw() + yaw_error);

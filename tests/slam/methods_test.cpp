@@ -47,5 +47,19 @@ TEST_P(MethodConfigTest, WrongKeysAndValuesAreNamed) {
 INSTANTIATE_TEST_SUITE_P(Methods, MethodConfigTest, testing::ValuesIn(methods().begin(), methods().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
+TEST(Methods, AFormerNameIsNoName) {
+  for (const MethodRow& row : methods())
+    if (!row.former.empty()) {
+      EXPECT_EQ(find_method(row.former), nullptr) << row.former;
+    }
+  EXPECT_EQ(find_method("keyframe_graph")->former, "hdl_slam");
+  EXPECT_EQ(find_method("s_graphs_plus_all_walls")->former, "s_graphs_plus_paper");
+}
+
+TEST(Methods, ARenamedMethodKeepsItsSeed) {
+  EXPECT_EQ(seed_name(*find_method("vgicp")), "vgicp");
+  EXPECT_EQ(seed_name(*find_method("s_graphs_plus_all_walls")), "s_graphs_plus_paper");
+}
+
 }  // namespace
 }  // namespace plumbline::slam

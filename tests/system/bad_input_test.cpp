@@ -88,6 +88,8 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
   refuse(with(scenario_, "speed_mps: 0.6", "speed_mps: 60"), plan_, {"short.yaml:9:", "between"});
   refuse(with(scenario_, "odometry, vgicp", "odometry, vgcip"), plan_,
          {"short.yaml:12:", "unknown method 'vgcip'", "'vgicp'"});
+  refuse(with(scenario_, "odometry, vgicp", "odometry, hdl_slam"), plan_,
+         {"short.yaml:12:", "method 'hdl_slam' is now called 'keyframe_graph'"});
   refuse(with(scenario_, "short.plan.yaml", "none.plan.yaml"), plan_, {"short.yaml:5:", "none.plan.yaml"});
   refuse(with(scenario_, "method: truth", "method: nobody"), plan_, {"short.yaml:14:", "nobody"});
   refuse(with(scenario_, "metric: ate_aligned_rmse_m", "metric: ate"), plan_,
@@ -151,7 +153,8 @@ TEST_F(BadInput, CommandLine) {
   refuse_line({"run", input, "--sed", "1"}, "unknown option '--sed'; did you mean '--seed'?");
   refuse_line({"generate", "corridor", "--rooms", "4", "--widths", "3", "-o", "-"}, "unknown option '--widths'");
   for (const char* seed : {"-1", "", "1.5", "1e3", "9200000000000000001", "99999999999999999999"})
-    refuse_line({"run", input, "--seed", seed, "--out", folder_ / "out"}, "is not a seed; give a whole number from 0 to");
+    refuse_line({"run", input, "--seed", seed, "--out", folder_ / "out"},
+                "is not a seed; give a whole number from 0 to");
   refuse_line({"identify", project_file("tests/system/short.plan.yaml"), "--step", "nan"}, "from 0.1 to 5");
   for (const char* until : {"-5", "0", "nan", "inf", "1e300"})
     refuse_line({"replay", folder_ / "nothing", "--until", until}, "a number above 0");
@@ -189,6 +192,9 @@ TEST_F(BadInput, CommandLine) {
   write_file(folder_ / "short.yaml", scenario_);
   write_file(folder_ / "short.plan.yaml", plan_);
   refuse_file("short.yaml", {"unknown method 'vgcip'", "'vgicp'"}, {"--method", "truth,vgcip"});
+  refuse_file("short.yaml",
+              {"--method: method 's_graphs_plus_paper.lidar' is now called 's_graphs_plus_all_walls.lidar'"},
+              {"--method", "truth,s_graphs_plus_paper.lidar"});
   refuse_file("short.yaml", {"twice"}, {"--method", "truth,truth"});
 }
 

@@ -113,7 +113,7 @@ TEST(LevelAgreement, UsesNoCeilingThatNothingConfirms) {
 }
 
 TEST(LevelAgreement, ThePublishedMethodsKeepEveryFloor) {
-  EXPECT_FALSE(SGraphsPlusPaperConfig().level_agreement.drop);
+  EXPECT_FALSE(SGraphsPlusAllWallsConfig().level_agreement.drop);
   EXPECT_FALSE(SGraphs2022Config().level_agreement.drop);
   EXPECT_TRUE(SGraphsPlusConfig().level_agreement.drop);
   const std::vector<Plane> floors = {level(0.0), level(0.2), level(0.0), level(0.2), level(0.0), level(0.2)};

@@ -179,7 +179,7 @@ TEST(PrintedMethods, WalkThroughARoomAndFindIt) {
   const std::vector<Eigen::Vector2d> way = {{1.0, 1.0}, {5.0, 1.0}, {5.0, 3.0}, {2.0, 3.0}};
   const synthetic::Recording recording = synthetic::walk(synthetic::one_room(), way, walk);
   for (const SGraphsPlusConfig& config :
-       {SGraphsPlusConfig(SGraphsPlusPaperConfig()), SGraphsPlusConfig(SGraphsConfig())}) {
+       {SGraphsPlusConfig(SGraphsPlusAllWallsConfig()), SGraphsPlusConfig(SGraphsConfig())}) {
     const Walked r = run(recording, config);
     EXPECT_LT(ate(r.causal, r.truth), 0.03);
     EXPECT_EQ(r.estimate.floors.size(), config.parts.floors ? 1U : 0U);
