@@ -217,7 +217,7 @@ class GuardedScanMatcher final : public LidarOdometry {
     // Where the last scan was in its place, an alias is what another start leads to.
     const bool continues = result.from_expected && accepted_stamp_ == stamp_;
     constexpr int most_steps = 3;  // of the one before; in a longer gap the scene may have become another
-    const bool surprises_after_gap = dt > most_steps * dt_ && !OdometryHealth::is_expected_step(step, expected);
+    const bool surprises_after_gap = dt / most_steps > dt_ && !OdometryHealth::is_expected_step(step, expected);
     const bool doubtful = surprises_after_gap || health_.is_doubtful(result, step, expected);
     if (had_map_ && result.accepted && !sample.valid && !continues && doubtful)
       unmeasured_.add_doubtful(surprise_m(step, sample.step));

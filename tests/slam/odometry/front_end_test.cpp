@@ -303,7 +303,7 @@ TEST(FrontEnd, AfterScansWithoutReturnsThePlaceIsKnownOrLost) {
   }
 }
 
-// After 1.6 s without scans. Measured: more surfels match 13 to 31 m back than where the first one is expected.
+// After 1.6 s without scans more surfels of the first one match metres back than where it is expected.
 TEST(FrontEnd, AVehicleIsFollowedOverAGapOrLost) {
   for (const std::uint64_t seed : {20U, 22U}) {
     synthetic::House street = synthetic::one_room(160.0, 16.0);

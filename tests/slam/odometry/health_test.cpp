@@ -113,7 +113,7 @@ TEST(OdometryHealth, ASurpriseTakesAsManyMatchesAsUsual) {
   EXPECT_TRUE(health.assess(matched(0.5), step(1.5, 0.0), {5 * period, step(1.4, 0.0), {}})) << "of unknown error";
 }
 
-// 13 m of way in a gap, in a direction that a swaying body tells within 2 degrees.
+// 13 m of way in a gap; a swaying body leaves its direction uncertain by 2 degrees.
 TEST(OdometryHealth, OfALongWayThreePercentMayBeMissed) {
   const auto step = [](double x) { return Pose::from_xyz_yaw({x, 0.0, 0.0}, 0.0); };
   const auto expects = [&](double x, double off_m) {

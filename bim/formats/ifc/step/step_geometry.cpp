@@ -166,10 +166,10 @@ struct StepGeometry::Impl {
     const Eigen::Affine3d X = frame_of(solid->m_Position);
     Eigen::Vector3d origin = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
     for (std::size_t i = 0; i < std::min<std::size_t>(location->m_Coordinates.size(), 3); ++i)
-      origin[static_cast<Eigen::Index>(i)] = unit_m * location->m_Coordinates[i]->m_value;
+      if (const auto& x = location->m_Coordinates[i]) origin[static_cast<Eigen::Index>(i)] = unit_m * x->m_value;
     if (const auto& direction = solid->m_Axis->m_Axis)
       for (std::size_t i = 0; i < std::min<std::size_t>(direction->m_DirectionRatios.size(), 3); ++i)
-        axis[static_cast<Eigen::Index>(i)] = direction->m_DirectionRatios[i]->m_value;
+        if (const auto& x = direction->m_DirectionRatios[i]) axis[static_cast<Eigen::Index>(i)] = x->m_value;
     axis.normalize();
     double radius_m = 0.0;
     for (const Facets& facets : facets_of(data))
