@@ -24,7 +24,7 @@ TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
   const std::string good = walk("good");
   refuse({good, "--method", "vgcip"}, "--method", "'vgicp'");
   refuse({good, "--method", "truth"}, "--method", "no estimator");
-  refuse({good, "--method", "s_graph_localization"}, "--plan", "is missing");
+  refuse({good, "--method", "s_graph_localization"}, "--plan", "is required");
   refuse({good, "--method", "s_graph_localization", "--plan", plan(), "--storey", "attic"}, "--storey", "ground");
   refuse({good, "--method", "vgicp", "--plan", plan()}, "--plan", "'vgicp' does not");
   refuse({good, "--method", "vgicp", "--storey", "ground"}, "--storey", "'vgicp' does not");
