@@ -9,12 +9,12 @@
 #include <span>
 #include <utility>
 
+#include "slam/localization/outlier_cause.h"
+
 namespace plumbline::slam {
 
 namespace {
 
-/// The plan is cast no farther than this beyond a return: the residual is at its cap there.
-constexpr float cast_beyond_m = 2.0F;
 /// Cost of a beam that needs no other explanation: a standard deviation.
 constexpr float fits = 0.5F;
 /// Neighbouring beams of a ring that are cast one after another.
@@ -209,39 +209,6 @@ bool ends_in_opening(const PredictedScan& predicted, const PlanRay& ray, double 
                                                 range + config.sigma_m, predicted.cell);
 }
 
-OutlierCause unplanned_at(const Eigen::Vector2d& p_I, const HypothesisComparisonConfig& config) {
-  const Eigen::Vector2d cell = (p_I / config.clutter_cell_m).array().floor();
-  return {OutlierCause::Kind::unplanned, static_cast<int>(cell.x()), static_cast<int>(cell.y())};
-}
-
-OutlierCause cause_of(const Structure& structure, const PlanRay& ray, double range, const PredictedBlock& block,
-                      std::size_t k, const HypothesisComparisonConfig& config) {
-  if (block.element[k] < 0) return unplanned_at(ray.origin + range * ray.direction, config);
-  if (static_cast<double>(block.expected[k]) >= range)
-    return {OutlierCause::Kind::in_front_of_face, block.element[k], block.side[k]};
-  const bool railing = structure.is_railing(block.element[k]);
-  return {railing ? OutlierCause::Kind::between_bars : OutlierCause::Kind::not_built, block.element[k]};
-}
-
-/// The element that a beam passes is missing, and that explains where it ends: at the next face behind it.
-bool ends_at_next_face(const Structure& structure, const PlanRay& ray, double range, double passed_m,
-                       const HypothesisComparisonConfig& config) {
-  constexpr double past_m = 0.02;  // of the face that is passed, whose far side is passed, too
-  const auto near = [&](double distance) { return std::abs(distance - range) < 3.0 * config.sigma_m; };
-  double at_m = passed_m + past_m;
-  for (int face = 0; face < 3 && at_m < range + 3.0 * config.sigma_m; ++face) {
-    const Eigen::Vector2d from = ray.origin + at_m * ray.direction;
-    const SensorRay rest{ray.direction, ray.slope};
-    StructureHit hit;
-    structure.cast({from.x(), from.y(), ray.z + at_m * ray.slope}, std::span(&rest, 1), cast_beyond_m + range,
-                   std::span(&hit, 1));
-    if (hit.element < 0) return false;
-    if (near(at_m + hit.distance)) return true;
-    at_m += hit.distance + past_m;
-  }
-  return false;
-}
-
 /// Sums the evidence of neighbouring beams for one cause before the cause is looked up.
 class EvidenceAccumulator {
  public:
@@ -252,23 +219,22 @@ class EvidenceAccumulator {
   EvidenceAccumulator& operator=(const EvidenceAccumulator&) = delete;
   EvidenceAccumulator& operator=(EvidenceAccumulator&&) = delete;
 
-  void add(const OutlierCause& cause, double log_likelihood, const Eigen::Vector2d& end_I) {
+  void add(const OutlierCause& cause, double log_likelihood, const Eigen::Vector2d& end_I, bool passes_wall = false) {
     if (cause != cause_) flush();
     cause_ = cause;
-    sum_ += log_likelihood;
-    within_.extend(end_I);
+    sum_.log_likelihood += log_likelihood;
+    if (passes_wall) sum_.passed += log_likelihood;
+    sum_.within.extend(end_I);
   }
 
  private:
   void flush() {
-    if (sum_ > 0.0) evidence_.add(cause_, sum_, within_);
-    sum_ = 0.0;
-    within_.setEmpty();
+    if (sum_.log_likelihood > 0.0) evidence_.add(cause_, sum_);
+    sum_ = {};
   }
   EvidenceByCause& evidence_;
   OutlierCause cause_;
-  double sum_ = 0.0;
-  Eigen::AlignedBox2d within_;
+  EvidenceByCause::Sum sum_;
 };
 
 /// Adds to each object of `against` what ends next to it and is too short at the better pose, too: furniture is seldom
@@ -380,13 +346,12 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const double range = block.range[k], expected = worse.blocks[i].expected[k];
         const PlanRay ray = ray_of(worse, scan, block, k);
         if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
-        const OutlierCause cause = cause_of(*worse.storey->structure, ray, range, worse.blocks[i], k, config);
+        const ExplainedOutlier outlier =
+            explain_outlier(*worse.storey->structure, ray, range, worse.blocks[i], k, config);
         const Eigen::Vector2d end_I = ray.origin + range * ray.direction;
-        const bool needs_two = cause.kind == OutlierCause::Kind::not_built &&
-                               !ends_at_next_face(*worse.storey->structure, ray, range, expected, config);
-        const double each = (needs_two ? 0.5 : 1.0) * std::abs(gain);
-        (gain > 0.0 ? against_b : against_a).add(cause, each, end_I);
-        if (needs_two) (gain > 0.0 ? ends_b : ends_a).add(unplanned_at(end_I, config), each, end_I);
+        const double each = (outlier.object ? 0.5 : 1.0) * std::abs(gain);
+        (gain > 0.0 ? against_b : against_a).add(outlier.cause, each, end_I, outlier.passes_wall);
+        if (outlier.object) (gain > 0.0 ? ends_b : ends_a).add(*outlier.object, each, end_I);
         result.ratio += gain;
       }
     }

@@ -24,6 +24,7 @@ struct HypothesisComparisonConfig {
   double edge_rad = 0.0015;
   double edge_tilts = 2.0;
   double cause_cap = 8.0;
+  double missing_wall_cap = 4.0;
   double object_cap = 4.0;
   double outlined_cap = 6.0;
   double outline_share = 0.1;
@@ -58,6 +59,12 @@ struct HypothesisComparisonConfig {
       plain_field("tolerance of an edge of the plan in height, in standard deviations of roll and pitch", {.min = 0}));
     v("cause_cap", cause_cap,
       plain_field("most evidence of one cause, such as a missing wall or an unplanned object", {.min = 0}));
+    // Less than convergence.log_ratio: one wall of a plan that was not built, or was taken out, decides nothing alone.
+    // Chosen on seven walks whose one wall that breaks a symmetry is missing.
+    v("missing_wall_cap", missing_wall_cap,
+      plain_field("most evidence of one wall that beams pass as a whole, where hardly anything else speaks against "
+                  "the pose",
+                  {.min = 0}));
     // Less than convergence.log_ratio: furniture that ends by chance where another pose has a wall decides nothing.
     v("object_cap", object_cap,
       plain_field("most evidence of an unplanned object as its cause, before a face or where the plan has nothing",
@@ -118,22 +125,26 @@ struct OutlierCause {
 /// Evidence against a hypothesis, by the cause that would explain it.
 class EvidenceByCause {
  public:
-  void add(const OutlierCause& cause, double log_likelihood) { sums_[cause].log_likelihood += log_likelihood; }
-  /// within: where beams ended, in I.
-  void add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within);
+  struct Sum {
+    double log_likelihood = 0.0;
+    double passed = 0.0;         ///< of it, by what passes a wall as a whole
+    double unexplained = 0.0;    ///< of beams that end next to `within` and fit at neither pose
+    Eigen::AlignedBox2d within;  ///< where beams ended, in I
+  };
+  void add(const OutlierCause& cause, const Sum& more, double scale = 1.0);
+  /// passed: the part of it by what passes a wall as a whole.
+  void add(const OutlierCause& cause, double log_likelihood, double passed = 0.0) {
+    add(cause, {log_likelihood, passed, 0.0, {}});
+  }
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
   /// No cause counts for more than its cap: an element that was not built, an object that was not planned, or a
-  /// railing, which never decides alone. What stands at one place before several faces, as in a corner, is one object.
-  /// An object that ends where the better pose has something end, on all sides, is hardly furniture there by chance and
-  /// counts for more.
+  /// railing, which never decides alone. Nor does one wall that is
+  /// missing as a whole: up to missing_wall_cap and half of what other causes count for. What stands at one place
+  /// before several faces, as in a corner, is one object. An object that ends where the better pose has something end,
+  /// on all sides, is hardly furniture there by chance and counts for more.
   [[nodiscard]] double total(const HypothesisComparisonConfig& config) const;
 
-  struct Sum {
-    double log_likelihood = 0.0;
-    double unexplained = 0.0;  ///< of beams that end next to `within` and fit at neither pose
-    Eigen::AlignedBox2d within;
-  };
   [[nodiscard]] std::map<OutlierCause, Sum>& sums() { return sums_; }
 
  private:

@@ -16,6 +16,12 @@ struct UnplannedObject {
   EvidenceByCause::Sum sum;     ///< not capped
 };
 
+/// Share of other causes by which a missing wall counts for more than alone.
+constexpr double corroborated = 0.5;
+
+/// Most of what contradicts the element passes it as a whole, and does not only end in it.
+bool is_missing_wall(const EvidenceByCause::Sum& sum) { return sum.passed > 0.5 * sum.log_likelihood; }
+
 bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
   return sum.unexplained <= config.outline_share * sum.log_likelihood;
 }
@@ -48,26 +54,27 @@ void join_near(std::vector<UnplannedObject>& objects, double gap) {
 
 }  // namespace
 
-void EvidenceByCause::add(const OutlierCause& cause, double log_likelihood, const Eigen::AlignedBox2d& within) {
+void EvidenceByCause::add(const OutlierCause& cause, const Sum& more, double scale) {
   Sum& sum = sums_[cause];
-  sum.log_likelihood += log_likelihood;
-  sum.within.extend(within);
+  sum.log_likelihood += scale * more.log_likelihood;
+  sum.passed += scale * more.passed;
+  sum.unexplained += scale * more.unexplained;
+  sum.within.extend(more.within);
 }
 
 void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
-  for (const auto& [cause, sum] : more.sums_) {
-    add(cause, scale * sum.log_likelihood, sum.within);
-    sums_[cause].unexplained += scale * sum.unexplained;
-  }
+  for (const auto& [cause, sum] : more.sums_) add(cause, sum, scale);
 }
 
 double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
-  double total = 0.0;
+  double total = 0.0, missing_wall = 0.0;  // the largest
   std::vector<UnplannedObject> objects;
   for (const auto& [cause, sum] : sums_) {
-    if (cause.kind == OutlierCause::Kind::not_built)
-      total += std::min(sum.log_likelihood, config.cause_cap);
-    else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
+    if (cause.kind == OutlierCause::Kind::not_built) {
+      const double capped = std::min(sum.log_likelihood, config.cause_cap);
+      total += capped;
+      if (is_missing_wall(sum)) missing_wall = std::max(missing_wall, capped);
+    } else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
     else {
       UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
@@ -78,7 +85,8 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
   }
   join_near(objects, config.object_gap_m);
   for (const UnplannedObject& object : objects) total += std::min(object.log_likelihood, cap_of(object, config));
-  return total;
+  const double others = total - missing_wall;
+  return others + std::min(missing_wall, config.missing_wall_cap + corroborated * others);
 }
 
 }  // namespace plumbline::slam

@@ -67,13 +67,14 @@ void HypothesisSet::replay_best_agreement(const PlanIndex& index) {
 void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const ScanAtPose& own,
                                         const ScanAtPose& reference, const HypothesisComparisonConfig& config,
                                         EvidenceBalance& balance) const {
-  const auto add_crossings = [&](const std::vector<int>& more, const std::vector<int>& than,
+  const auto add_crossings = [&](const std::vector<int>& more, const std::vector<int>& than, const Structure& structure,
                                  EvidenceByCause& evidence) {
     for (std::size_t i = than.size(); i < more.size(); ++i)
-      evidence.add({OutlierCause::Kind::not_built, more[i]}, config_.crossing_cost);
+      evidence.add({OutlierCause::Kind::not_built, more[i]}, config_.crossing_cost,
+                   structure.is_wall(more[i]) ? config_.crossing_cost : 0.0);
   };
-  add_crossings(own.crossed, reference.crossed, balance.against);
-  add_crossings(reference.crossed, own.crossed, balance.supporting);
+  add_crossings(own.crossed, reference.crossed, *own.predicted.storey->structure, balance.against);
+  add_crossings(reference.crossed, own.crossed, *reference.predicted.storey->structure, balance.supporting);
   const PairwiseLikelihoodRatio comparison = compare_hypotheses(scan, own.predicted, reference.predicted, config);
   const double size = std::abs(comparison.ratio);
   if (size <= config_.deadband) return;

@@ -48,7 +48,8 @@ bool has_bars(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
 
 Structure::Structure(const bim::BuildingMesh& mesh_I) : scene_(mesh_I) {
   for (const bim::MeshElement& element : mesh_I.elements) {
-    blocks_.push_back(element.kind == bim::ElementKind::wall || element.kind == bim::ElementKind::column);
+    wall_.push_back(element.kind == bim::ElementKind::wall);
+    blocks_.push_back(wall_.back() || element.kind == bim::ElementKind::column);
     railing_.push_back(has_bars(mesh_I, element));
   }
 }

@@ -39,11 +39,13 @@ class Structure {
   [[nodiscard]] int barrier(const Eigen::Vector3d& from_I, const Eigen::Vector3d& to_I) const;
   /// True for an element of three bars or more. Which gap between them a beam passes depends on a centimetre.
   [[nodiscard]] bool is_railing(int element) const { return railing_[static_cast<std::size_t>(element)]; }
+  [[nodiscard]] bool is_wall(int element) const { return wall_[static_cast<std::size_t>(element)]; }
   /// Height of what a robot at a point would stand on, none within reach below it. m.
   [[nodiscard]] std::optional<double> ground_below(const Eigen::Vector3d& p_I, double reach_m) const;
 
  private:
   bim::RayScene scene_;
+  std::vector<bool> wall_;     ///< by element
   std::vector<bool> blocks_;   ///< by element: a wall or a column
   std::vector<bool> railing_;  ///< by element
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bim/random/stream.h"
+#include "slam/localization/global_localizer.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
 
@@ -40,8 +41,13 @@ double here_against_there(const synthetic::House& planned, const synthetic::Hous
 HypothesisComparisonConfig capped_at(double object_cap, double cause_cap) {
   HypothesisComparisonConfig config;
   config.object_cap = config.outlined_cap = object_cap;
-  config.cause_cap = cause_cap;
+  config.cause_cap = config.missing_wall_cap = cause_cap;
   return config;
+}
+
+/// Evidence of beams that ended within a box.
+EvidenceByCause::Sum seen_in(double log_likelihood, const Eigen::AlignedBox2d& within) {
+  return {log_likelihood, 0.0, 0.0, within};
 }
 
 /// What evidence counts for once it was seen ever so often.
@@ -218,10 +224,32 @@ TEST(EvidenceByCause, ARailingDoesNotDecide) {
   const OutlierCause railing{OutlierCause::Kind::between_bars, 3}, wall{OutlierCause::Kind::not_built, 4};
   const Eigen::AlignedBox2d seen_behind(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(5.0, 3.0));
   EvidenceByCause evidence;
-  evidence.add(railing, 50.0, seen_behind);
+  evidence.add(railing, seen_in(50.0, seen_behind));
   EXPECT_EQ(evidence.total(config), config.object_cap);
-  evidence.add(wall, 50.0, seen_behind);
+  evidence.add(wall, seen_in(50.0, seen_behind));
   EXPECT_EQ(evidence.total(config), config.object_cap + config.cause_cap);
+}
+
+TEST(EvidenceByCause, AMissingWallDecidesOnlyWithOthers) {
+  const HypothesisComparisonConfig config;
+  const OutlierCause wall{OutlierCause::Kind::not_built, 3}, other{OutlierCause::Kind::not_built, 4},
+      thing{OutlierCause::Kind::unplanned, 3, 1};
+  EvidenceByCause evidence;
+  evidence.add(wall, 50.0, 40.0);
+  EXPECT_EQ(evidence.total(config), config.missing_wall_cap);
+  EXPECT_LT(evidence.total(config), ConvergenceConfig{}.log_ratio);
+  EvidenceByCause with_thing = evidence;
+  with_thing.add(thing, 1.0);
+  EXPECT_EQ(with_thing.total(config), config.missing_wall_cap + 1.5);
+  evidence.add(other, 50.0, 50.0);
+  EXPECT_EQ(evidence.total(config), 2.0 * config.cause_cap) << "two walls are missing";
+}
+
+TEST(EvidenceByCause, AWallThatBeamsEndInIsNotMissing) {
+  const HypothesisComparisonConfig config;
+  EvidenceByCause niche;
+  niche.add({OutlierCause::Kind::not_built, 3}, 50.0, 20.0);
+  EXPECT_EQ(niche.total(config), config.cause_cap);
 }
 
 // A cupboard in a corner stands before two walls, and on the line between two cells.
@@ -232,17 +260,17 @@ TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
   };
   using Kind = OutlierCause::Kind;
   EvidenceByCause corner;
-  corner.add({Kind::in_front_of_face, 1, 2}, 9.0, box(0.0, 0.4, 0.4, 0.4));
-  corner.add({Kind::in_front_of_face, 2, 4}, 9.0, box(0.4, 0.0, 0.4, 0.4));
+  corner.add({Kind::in_front_of_face, 1, 2}, seen_in(9.0, box(0.0, 0.4, 0.4, 0.4)));
+  corner.add({Kind::in_front_of_face, 2, 4}, seen_in(9.0, box(0.4, 0.0, 0.4, 0.4)));
   EXPECT_EQ(corner.total(config), 4.0);
-  corner.add({Kind::unplanned, 0, 0}, 9.0, box(0.5, 0.5, 0.55, 0.55));
+  corner.add({Kind::unplanned, 0, 0}, seen_in(9.0, box(0.5, 0.5, 0.55, 0.55)));
   EXPECT_EQ(corner.total(config), 4.0);
-  corner.add({Kind::in_front_of_face, 3, 4}, 9.0, box(5.0, 0.0, 5.0, 0.4));
+  corner.add({Kind::in_front_of_face, 3, 4}, seen_in(9.0, box(5.0, 0.0, 5.0, 0.4)));
   EXPECT_EQ(corner.total(config), 8.0) << "another one stands far from it";
   EvidenceByCause wall;
-  for (int x = 0; x < 6; ++x) wall.add({Kind::unplanned, x, 0}, 9.0, box(x, 0.0, x + 1.0, 0.0));
+  for (int x = 0; x < 6; ++x) wall.add({Kind::unplanned, x, 0}, seen_in(9.0, box(x, 0.0, x + 1.0, 0.0)));
   EXPECT_NEAR(wall.total(config), 24.0, 1e-9) << "six metres are no single object";
-  wall.add({Kind::not_built, 7}, 9.0, box(0.0, 0.0, 6.0, 0.0));
+  wall.add({Kind::not_built, 7}, seen_in(9.0, box(0.0, 0.0, 6.0, 0.0)));
   EXPECT_NEAR(wall.total(config), 32.0, 1e-9);
 }
 
@@ -251,7 +279,7 @@ TEST(EvidenceByCause, AnObjectThatThePlanOutlinesCountsForMore) {
   const OutlierCause cause{OutlierCause::Kind::in_front_of_face, 1, 2};
   const auto seen = [&](double length_m, double unexplained) {
     EvidenceByCause evidence;
-    evidence.add(cause, 100.0, {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(length_m, 0.0)});
+    evidence.add(cause, seen_in(100.0, {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(length_m, 0.0)}));
     evidence.sums().at(cause).unexplained = unexplained;
     return evidence.total(config);
   };
@@ -295,9 +323,31 @@ TEST(PairwiseLikelihoodRatio, WhatStandsBehindAWallThatWasNotBuiltNeedsACauseOfI
     };
     return in_the_end(compare_hypotheses(scan, seen(right), seen(with), config).against_b);
   };
-  EXPECT_NEAR(against_plan(synthetic::one_room(12.0, 4.0)), config.cause_cap, 1e-9) << "beams end at the next wall";
+  EXPECT_NEAR(against_plan(synthetic::one_room(12.0, 4.0)), config.missing_wall_cap, 1e-9)
+      << "beams end at the next wall";
   // Four metres of something.
   EXPECT_GT(against_plan(built), config.cause_cap + 3.0 * config.object_cap);
+}
+
+// A niche is seen within the wall, which is there.
+TEST(PairwiseLikelihoodRatio, ANicheInAWallIsNoMissingWall) {
+  const auto wall_with = [](double niche_m) {
+    synthetic::House house = synthetic::one_room(8.0, 4.0);
+    house.boxes.push_back({{5.0, 0.0, 0.0}, {5.4, 1.2, 2.8}});
+    house.boxes.push_back({{5.0 + niche_m, 1.2, 0.0}, {5.4, 2.8, 2.8}});
+    house.boxes.push_back({{5.0, 2.8, 0.0}, {5.4, 4.0, 2.8}});
+    return house;
+  };
+  const synthetic::House built = wall_with(0.2);
+  const PlanIndex with = make_plan_index(synthetic::plan_of(built), "ground", {}),
+                  without = make_plan_index(synthetic::plan_of(wall_with(0.0)), "ground", {});
+  const HypothesisComparisonConfig config;
+  const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.7, 0.46}, 0.1);
+  const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
+  const auto seen = [&](const PlanIndex& index) {
+    return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X_WR), scan, config);
+  };
+  EXPECT_GE(in_the_end(compare_hypotheses(scan, seen(with), seen(without), config).against_b), config.cause_cap);
 }
 
 // Beams penetrate both of its faces, from either side.
@@ -320,7 +370,7 @@ TEST(PairwiseLikelihoodRatio, AWallThatWasNotBuiltIsOneCauseFromBothSides) {
     EXPECT_GT(said.against_a.total(capped_at(1e9, 1e9)), config.cause_cap);
     against.add(said.against_a, 1.0);
   }
-  EXPECT_NEAR(against.total(config), config.cause_cap, 0.5);
+  EXPECT_NEAR(against.total(config), config.missing_wall_cap, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, CompareHypothesesAt, testing::Range(0, 6));
