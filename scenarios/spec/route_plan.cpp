@@ -277,7 +277,7 @@ class Planner {
     const int index = find_room(building_, *route.shuttle, marks_.route);
     const FloorPoint middle = target(index, marks_.route);
     const Eigen::Vector2d axis = long_axis(room(index).polygon);
-    const std::array<FloorPoint, 2> ends = {last_free(middle, axis), last_free(middle, -axis)};
+    const std::array<FloorPoint, 2> ends = {last_free(index, middle, axis), last_free(index, middle, -axis)};
     if ((ends[0].p_W - ends[1].p_W).norm() < shuttle_min_m)
       throw InputError(marks_.route, "room " + quoted(room(index)) + " is too small to walk to and fro in: " +
                                          format_number(round_coordinate((ends[0].p_W - ends[1].p_W).norm())) +
@@ -303,12 +303,14 @@ class Planner {
     return axis;
   }
 
-  [[nodiscard]] FloorPoint last_free(const FloorPoint& from, const Eigen::Vector2d& direction) const {
+  /// The last place of the room in a direction before the robot would not fit: a door in its end wall leads out of it.
+  [[nodiscard]] FloorPoint last_free(int index, const FloorPoint& from, const Eigen::Vector2d& direction) const {
     constexpr double step = 0.05;
     const sim::ClearanceMap& space = space_.storey(from.storey);
+    const auto at = [&](int i) -> Eigen::Vector2d { return from.p_W + i * step * direction; };
     int i = 0;
-    while (space.free(from.p_W + (i + 1) * step * direction)) ++i;
-    return {from.storey, from.p_W + i * step * direction};
+    while (room(index).contains(at(i + 1)) && space.free(at(i + 1))) ++i;
+    return {from.storey, at(i)};
   }
 
   const bim::Building& building_;

@@ -101,6 +101,27 @@ TEST_F(Furnished, ANicheOfAFewCentimetresMakesNobodySureAndWrong) {
   EXPECT_EQ(method.at("localization").at("sure_and_wrong"), 0) << method.dump(1);
 }
 
+// Half a turn maps the building as built onto itself. The plan has one wall more, which the robot does not find; it was
+// sure to be in the other half.
+TEST_F(Furnished, OneWallThatWasNotBuiltMakesNobodySureAndWrong) {
+  write_file(folder_ / "halves.plan.yaml",
+             "plan: 1\nname: halves\nstoreys: [{id: g}]\nwalls:\n"
+             "  - {id: south, storey: g, a: [0, 0], b: [12, 0]}\n  - {id: east, storey: g, a: [12, 0], b: [12, 5]}\n"
+             "  - {id: north, storey: g, a: [12, 5], b: [0, 5]}\n  - {id: west, storey: g, a: [0, 5], b: [0, 0]}\n"
+             "  - {id: middle, storey: g, a: [6, 0], b: [6, 5]}\n  - {id: stub, storey: g, a: [2, 0], b: [2, 0.9]}\n"
+             "openings: [{id: door, wall: middle, kind: door, s_m: 2.5, width_m: 1.0, height_m: 2.1}]\n"
+             "rooms:\n  - {id: a, storey: g, polygon: [[0.1, 0.1], [5.9, 0.1], [5.9, 4.9], [0.1, 4.9]]}\n"
+             "  - {id: b, storey: g, polygon: [[6.1, 0.1], [11.9, 0.1], [11.9, 4.9], [6.1, 4.9]]}\n"
+             "deviations: [{op: remove_wall, wall: stub}]\n");
+  write_file(folder_ / "halves.yaml",
+             "scenario: 1\nname: halves\nbuilding: halves.plan.yaml\nstart: {room: a}\nroute: {shuttle: a}\n"
+             "duration_s: 15\nprior: {yaw: unknown}\nmethods: [s_graph_localization]\n");
+  const nlohmann::json localization = localization_in(results_of(folder_ / "halves.yaml")).at("localization");
+  EXPECT_EQ(localization.at("sure_and_wrong"), 0) << localization.dump(1);
+  EXPECT_EQ(localization.at("state"), "AMBIGUOUS");
+  EXPECT_EQ(localization.at("hypotheses"), 2) << "the true pose is among them";
+}
+
 TEST_F(Furnished, NoPlanButTheBuildingsOwnGivesAConfidentPose) {
   static_cast<void>(generated("own.plan.yaml", {"storeys", "--seed", "3", "--furnish", "0.2"}));
   write_file(folder_ / "walk.yaml",

@@ -131,6 +131,26 @@ TEST(RoutePlan, AShuttleMayLieOnAnotherStorey) {
   EXPECT_EQ(plan.waypoints.back().p_W.z(), 2.9);
 }
 
+// It went on through the door, and said that the room cannot be reached.
+TEST(RoutePlan, AShuttleTurnsBeforeADoorInTheEndWall) {
+  const bim::Building rooms = bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls:\n"
+      "  - {id: south, storey: g, a: [0, 0], b: [12, 0]}\n  - {id: east, storey: g, a: [12, 0], b: [12, 5]}\n"
+      "  - {id: north, storey: g, a: [12, 5], b: [0, 5]}\n  - {id: west, storey: g, a: [0, 5], b: [0, 0]}\n"
+      "  - {id: middle, storey: g, a: [6, 0], b: [6, 5]}\n"
+      "openings: [{id: door, wall: middle, kind: door, s_m: 2.5, width_m: 1.0, height_m: 2.1}]\n"
+      "rooms:\n  - {id: a, storey: g, polygon: [[0.1, 0.1], [5.9, 0.1], [5.9, 4.9], [0.1, 4.9]]}\n"
+      "  - {id: b, storey: g, polygon: [[6.1, 0.1], [11.9, 0.1], [11.9, 4.9], [6.1, 4.9]]}\n",
+      "rooms.plan.yaml");
+  Route route;
+  route.shuttle = "a";
+  const RoutePlan plan = plan_route(rooms, in("a"), route, {});
+  double farthest = 0.0;
+  for (const sim::Waypoint& waypoint : plan.waypoints) farthest = std::max(farthest, waypoint.p_W.x());
+  EXPECT_LT(farthest, 5.9);
+  EXPECT_GT(farthest, 5.0);
+}
+
 TEST(RoutePlan, AShuttleNeedsRoom) {
   bim::Building cell;
   cell.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
