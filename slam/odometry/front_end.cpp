@@ -7,10 +7,15 @@
 namespace plumbline::slam {
 
 FrontEnd::FrontEnd(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry)
-    : config_(config),
-      calibration_(calibration),
-      has_odometry_(has_odometry),
-      as_is_(std::make_unique<Tracking>(Tracking{ScanTracker(config, calibration, has_odometry), {}, {}})) {}
+    : config_(config), calibration_(calibration), has_odometry_(has_odometry), as_is_(tracking(false)) {}
+
+std::unique_ptr<FrontEnd::Tracking> FrontEnd::tracking(bool inferred_times) const {
+  return std::make_unique<Tracking>(
+      Tracking{ScanTracker(config_, calibration_, has_odometry_, inferred_times),
+               has_odometry_ ? std::nullopt : std::optional<StartTrial>(std::in_place, config_, calibration_),
+               {},
+               {}});
+}
 
 void FrontEnd::on_odometry(const Odometry& odometry) {
   constexpr std::size_t most = 10'000;  // some seconds
@@ -49,6 +54,11 @@ bool FrontEnd::compensated() const { return (uses_times() ? timed_ : as_is_)->tr
 
 Registration FrontEnd::Tracking::track(const Scan& scan, DeskewedScan& deskewed) {
   Registration result = tracker.track(scan, deskewed);
+  if (std::optional<StartTrial::Tracked> other = start ? start->add(scan, tracker, result) : std::nullopt) {
+    tracker = std::move(other->tracker);
+    deskewed = std::move(other->scan);
+    result = std::move(other->result);
+  }
   step = X_MR.inverse() * result.X_MR;
   X_MR = result.X_MR;
   return result;
@@ -62,7 +72,7 @@ void FrontEnd::begin_trial(const Scan& scan) {
     if (sweep_times_.share_of_step() > 0.0) sweep_times_.add_not_spinning();
     first_scans_.push_back(scan);
   } else {
-    timed_ = std::make_unique<Tracking>(Tracking{ScanTracker(config_, calibration_, has_odometry_, true), {}, {}});
+    timed_ = tracking(true);
     for (const Scan& first : std::exchange(first_scans_, {})) {
       for (; !first_odometry_.empty() && first_odometry_.front().stamp <= first.stamp; first_odometry_.pop_front())
         timed_->tracker.on_odometry(first_odometry_.front());

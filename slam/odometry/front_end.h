@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/odometry/scan_tracker.h"
+#include "slam/odometry/start_trial.h"
 #include "slam/odometry/sweep_times.h"
 
 namespace plumbline::slam {
@@ -31,11 +32,13 @@ class FrontEnd {
   /// A tracker and the motion that it found to the last scan.
   struct Tracking {
     ScanTracker tracker;
+    std::optional<StartTrial> start;  ///< where there is no odometry
     Pose X_MR;
     Pose step;
 
     [[nodiscard]] Registration track(const Scan& scan, DeskewedScan& deskewed);
   };
+  [[nodiscard]] std::unique_ptr<Tracking> tracking(bool inferred_times) const;
   [[nodiscard]] bool uses_times() const { return timed_ && (!as_is_ || sweep_times_.are_inferred()); }
   /// Keeps the scan until the length of a sweep is known; then the records so far are tracked with inferred times, too.
   void begin_trial(const Scan& scan);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bim/errors.h"
+#include "slam/odometry/continuous_odometry.h"
 #include "slam/odometry/motion_prediction.h"
 #include "slam/odometry/unmeasured_way.h"
 
@@ -30,9 +31,6 @@ class OdometryIncrements {
   Pose X_OR_;
 };
 
-/// Of an odometry's step in directions that surfaces leave open.
-constexpr double measured_sigma_m = 0.004;
-
 /// Standard deviation of a step that goes on as the one before: what a robot or person accelerates by in passing.
 double continued_sigma(Nanoseconds dt) {
   constexpr double acceleration_mps2 = 2.0, least_m = 0.002;
@@ -45,51 +43,6 @@ ExpectedMotion expected_of(const OdometrySample& odometry) {
   return {odometry.step, least_m + per_m * odometry.step.t.norm() + odometry.extrapolated_m,
           least_rad + per_rad * log_so3(odometry.step.q).norm() + odometry.extrapolated_rad};
 }
-
-/// The same for scan matchers. After a gap or an implausible step odometry's motion is discarded, since scans have
-/// measured it: its frame is moved so that the robot is where it was.
-class ContinuousOdometry {
- public:
-  [[nodiscard]] OdometrySample to(const Pose& X_BR, const DeskewedScan& scan, const OdometryHealth& health,
-                                  const std::optional<ExpectedMotion>& continued) {
-    Pose X_OR = X_OB_ ? *X_OB_ * X_BR : X_BR;
-    OdometrySample sample;
-    if (last_) {
-      sample.step = last_->X_OR.inverse() * X_OR;
-      const ExpectedStep expected{scan.stamp - last_->stamp, last_->step, continued};
-      const bool discontinuous = last_->stale || !health.is_plausible_step(sample.step, expected);
-      if (discontinuous) {
-        X_OB_ = join_frames(last_->X_OR, X_BR);
-        X_OR = *X_OB_ * X_BR;
-        sample.step = last_->X_OR.inverse() * X_OR;
-      }
-      sample.valid = !discontinuous && !scan.odometry_stale;
-      const double age_s = seconds(scan.odometry_age), last_age_s = seconds(last_->age);
-      constexpr double acceleration_mps2 = 2.0, turn_acceleration_radps2 = 4.0;
-      const double extrapolated_s2 = age_s * age_s + last_age_s * last_age_s;
-      sample.extrapolated_m = acceleration_mps2 * extrapolated_s2;
-      sample.extrapolated_rad = turn_acceleration_radps2 * extrapolated_s2;
-      if (sample.valid) sample.sigma_m = measured_sigma_m + sample.extrapolated_m;
-    }
-    sample.q_OR = X_OR.q;
-    const Nanoseconds dt = last_ ? scan.stamp - last_->stamp : 0;
-    last_ = Last{scan.stamp, X_OR, scan.odometry_stale, scan.odometry_age, std::nullopt};
-    if (sample.valid && dt > 0) last_->step = ExpectedMotion(sample.step);
-    return sample;
-  }
-
- private:
-  struct Last {
-    Nanoseconds stamp = 0;
-    Pose X_OR;
-    bool stale = false;
-    Nanoseconds age = 0;
-    std::optional<ExpectedMotion> step;  ///< as if it went on
-  };
-
-  std::optional<Last> last_;
-  std::optional<Pose> X_OB_;  ///< of the odometry's own frame, once it was moved
-};
 
 /// Any of the scan matchers behind the common interface. A scan that does not fit is dead reckoned and not mapped;
 /// after many of them the map is begun anew.
@@ -150,11 +103,16 @@ class GuardedScanMatcher final : public LidarOdometry {
     return keep(scan.stamp, std::move(result), sample);
   }
 
+  void assume_velocity(const DeskewedScan& first, const Eigen::Vector3d& mps) override {
+    begin_anew(first);
+    assumed_mps_ = mps;
+  }
+  [[nodiscard]] std::unique_ptr<LidarOdometry> clone() const override {
+    return std::make_unique<GuardedScanMatcher>(*this);
+  }
   void locate_map() override { unmeasured_.locate_map(); }
 
-  [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override {
-    return motion_.over(stamp - stamp_).value_or(Pose{});
-  }
+  [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override { return continued_over(stamp - stamp_); }
 
  private:
   /// From X_MR_, as if the motion before went on.
@@ -167,8 +125,10 @@ class GuardedScanMatcher final : public LidarOdometry {
     return ExpectedMotion{*step, motion_.sigma_m() + acceleration_mps2 * dt_s * dt_s,
                           motion_.sigma_rad() + turn_acceleration_radps2 * dt_s * dt_s};
   }
-  [[nodiscard]] Pose continued_pose(Nanoseconds stamp) const {
-    return motion_.over(stamp - moved_stamp_).value_or(Pose{});
+  [[nodiscard]] Pose continued_pose(Nanoseconds stamp) const { return continued_over(stamp - moved_stamp_); }
+  [[nodiscard]] Pose continued_over(Nanoseconds dt) const {
+    if (const std::optional<Pose> step = motion_.over(dt)) return *step;
+    return {Eigen::Quaterniond::Identity(), assumed_mps_ * seconds(dt)};
   }
 
   /// Up to where odometry has measured the way.
@@ -306,6 +266,7 @@ class GuardedScanMatcher final : public LidarOdometry {
     matcher_.reset_map();
     health_.restart();
     motion_.clear();
+    assumed_mps_.setZero();
     moved_stamp_ = stamp_;
   }
 
@@ -317,10 +278,11 @@ class GuardedScanMatcher final : public LidarOdometry {
   bool started_ = false;  ///< a scan came ...
   bool had_map_ = false;  ///< ... and one that could begin a map
   Pose X_MR_;
-  MotionPrediction motion_;         ///< from the accepted scans
-  double speed_mps_ = 0.0;          ///< when a map was last there
-  Nanoseconds stamp_ = 0, dt_ = 0;  ///< of the last scan, and since the one before
-  Nanoseconds moved_stamp_ = 0;     ///< of the last scan that X_MR_ was moved at
+  MotionPrediction motion_;                                ///< from the accepted scans
+  Eigen::Vector3d assumed_mps_ = Eigen::Vector3d::Zero();  ///< before there are any
+  double speed_mps_ = 0.0;                                 ///< when a map was last there
+  Nanoseconds stamp_ = 0, dt_ = 0;                         ///< of the last scan, and since the one before
+  Nanoseconds moved_stamp_ = 0;                            ///< of the last scan that X_MR_ was moved at
   Nanoseconds accepted_stamp_ = 0;
   Nanoseconds measured_stamp_ = 0;  ///< of the last scan whose whole motion was measured
   struct AtKeyframe {
@@ -349,6 +311,8 @@ class DeadReckoning final : public LidarOdometry {
   [[nodiscard]] Registration update_alone(const DeskewedScan&, const DeskewAgain&) override {
     throw InternalError("dead reckoning without odometry");
   }
+  void assume_velocity(const DeskewedScan&, const Eigen::Vector3d&) override {}
+  [[nodiscard]] std::unique_ptr<LidarOdometry> clone() const override { return std::make_unique<DeadReckoning>(*this); }
   void locate_map() override {}
   [[nodiscard]] Pose continued_step(Nanoseconds) const override { return {}; }
 

@@ -71,6 +71,10 @@ class LidarOdometry {
   [[nodiscard]] virtual Registration update(const DeskewedScan& scan, const Pose& X_OR) = 0;
   /// From scans alone: a search starts as if the motion before went on.
   [[nodiscard]] virtual Registration update_alone(const DeskewedScan& scan, const DeskewAgain& again) = 0;
+  /// After the scan that began a map, from scans alone: as if the robot went at this velocity, in R. `first` is that
+  /// scan, deskewed so, and begins the map in its place.
+  virtual void assume_velocity(const DeskewedScan& first, const Eigen::Vector3d& mps) = 0;
+  [[nodiscard]] virtual std::unique_ptr<LidarOdometry> clone() const = 0;
   /// The place of the map is known again, from outside: a loop closure to before it was lost.
   virtual void locate_map() = 0;
   /// R's motion from the last scan until `stamp` if the motion before goes on.

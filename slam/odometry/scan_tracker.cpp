@@ -24,6 +24,28 @@ ScanTracker::ScanTracker(const LidarOdometryConfig& config, const Calibration& c
       odometry_(make_lidar_odometry(config)),
       clock_offset_(calibration) {}
 
+ScanTracker::ScanTracker(const ScanTracker& other)
+    : calibration_(other.calibration_),
+      has_odometry_(other.has_odometry_),
+      inferred_times_(other.inferred_times_),
+      motion_(other.motion_),
+      odometry_(other.odometry_->clone()),
+      compensation_(other.compensation_),
+      clock_offset_(other.clock_offset_),
+      undone_offset_(other.undone_offset_),
+      longest_sweep_(other.longest_sweep_),
+      stamp_(other.stamp_),
+      X_MR_(other.X_MR_),
+      first_(other.first_) {}
+
+void ScanTracker::assume_velocity(const Eigen::Vector3d& mps) {
+  if (!first_) return;
+  const Nanoseconds sweep = sweep_time(*first_);
+  const Pose way{Eigen::Quaterniond::Identity(), mps * seconds(sweep)};
+  odometry_->assume_velocity(
+      compensated() || sweep <= 0 ? as_deskewed(*first_, calibration_) : deskewed_by(*first_, way, sweep), mps);
+}
+
 void ScanTracker::on_odometry(const Odometry& odometry) {
   motion_.add(odometry);
   clock_offset_.add(odometry);
@@ -100,7 +122,7 @@ Registration ScanTracker::track_alone(const Scan& raw, DeskewedScan& scan) {
   const Registration result = odometry_->update_alone(scan, again);
   if (result.deskewed_again > 0) scan = std::move(rounds[static_cast<std::size_t>(result.deskewed_again - 1)]);
   first_.reset();
-  if (result.began && sweep > 0) first_ = raw;
+  if (result.began) first_ = raw;
   return result;
 }
 

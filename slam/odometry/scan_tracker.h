@@ -20,10 +20,18 @@ class ScanTracker {
   ScanTracker(const LidarOdometryConfig& config, const Calibration& calibration, bool has_odometry,
               bool inferred_times = false);
 
+  ScanTracker(const ScanTracker& other);
+  ScanTracker(ScanTracker&&) noexcept = default;
+  ScanTracker& operator=(const ScanTracker&) = delete;
+  ScanTracker& operator=(ScanTracker&&) noexcept = default;
+  ~ScanTracker() = default;
+
   void on_odometry(const Odometry& odometry);
   [[nodiscard]] DeskewedScan deskewed(const Scan& scan) const;
   /// Of a scan that was deskewed by deskewed(); `scan` is replaced by one that was deskewed better where that is known.
   [[nodiscard]] Registration track(const Scan& raw, DeskewedScan& scan);
+  /// Right after a scan that began a map, without odometry: as if the robot went at this velocity, in R.
+  void assume_velocity(const Eigen::Vector3d& mps);
   /// The place of the map is known again, see LidarOdometry.
   void locate_map() { odometry_->locate_map(); }
   /// True once it is known that scans come deskewed; they are left as they are from then on.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double voxel_m = 0.3;
 constexpr double step_m = 0.2;  ///< from place to place
+constexpr int least_met = 15;   ///< see correlate()
 
 /// A place of the search.
 struct Place {
@@ -19,28 +20,14 @@ struct Place {
   int met = 0;                           ///< returns that share a voxel with the keyframe's
 };
 
+bool meets_less(const Place& a, const Place& b) { return a.met < b.met; }
+
 double apart_m(const Place& a, const Place& b) { return std::hypot(a.first_m - b.first_m, a.second_m - b.second_m); }
 
 Pose pose_at(const Place& place, const Pose& X_KR, std::span<const Vector6d> movements) {
   Vector6d increment = place.first_m * movements[0];
   if (movements.size() > 1) increment += place.second_m * movements[1];
   return X_KR * exp_se3(increment);
-}
-
-/// From below to above: the surfels' normals about R's z.
-Eigen::Vector3d up_of(std::span<const Surfel> surfels) {
-  constexpr double least_cosine = 0.77;  // 40 degrees
-  constexpr int rounds = 3;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  for (int round = 0; round < rounds; ++round) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Surfel& surfel : surfels) {
-      const double cosine = surfel.normal_R.dot(up);
-      if (std::abs(cosine) > least_cosine) sum += std::copysign(1.0, cosine) * surfel.normal_R;
-    }
-    if (sum.norm() > 0.0) up = sum.normalized();
-  }
-  return up;
 }
 
 std::vector<Eigen::Vector3d> moved_returns(const ReturnVoxels& keyframe, std::span<const Eigen::Vector3d> standing_R,
@@ -54,6 +41,22 @@ std::vector<Eigen::Vector3d> moved_returns(const ReturnVoxels& keyframe, std::sp
   kept.reserve(most);
   for (std::size_t k = 0; k < most; ++k) kept.push_back(moved[k * moved.size() / most]);
   return kept;
+}
+
+std::vector<Place> places_of(const ReturnVoxels& keyframe, std::span<const Eigen::Vector3d> moved_R, const Pose& X_KR,
+                             std::span<const Vector6d> movements, double window_m) {
+  const int reach = static_cast<int>(window_m / step_m);
+  const int second_reach = movements.size() > 1 ? reach : 0;
+  std::vector<Place> places;
+  for (int j = -second_reach; j <= second_reach; ++j)
+    for (int i = -reach; i <= reach; ++i) {
+      Place place{i * step_m, j * step_m, 0};
+      const Pose X = pose_at(place, X_KR, movements);
+      const Eigen::Matrix3d R = X.rotation();
+      for (const Eigen::Vector3d& p_R : moved_R) place.met += keyframe.hold(R * p_R + X.t) ? 1 : 0;
+      places.push_back(place);
+    }
+  return places;
 }
 
 }  // namespace
@@ -83,6 +86,21 @@ std::vector<Eigen::Vector3d> thinned_returns(const DeskewedScan& scan, double mi
     if (seen.insert(VoxelKey::of(scan.point_R[i], voxel_m)) == before) out.push_back(scan.point_R[i]);
   }
   return out;
+}
+
+Eigen::Vector3d up_of(std::span<const Surfel> surfels) {
+  constexpr double least_cosine = 0.77;  // 40 degrees
+  constexpr int rounds = 3;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Surfel& surfel : surfels) {
+      const double cosine = surfel.normal_R.dot(up);
+      if (std::abs(cosine) > least_cosine) sum += std::copysign(1.0, cosine) * surfel.normal_R;
+    }
+    if (sum.norm() > 0.0) up = sum.normalized();
+  }
+  return up;
 }
 
 std::vector<Eigen::Vector3d> standing_returns(std::span<const Eigen::Vector3d> returns_R,
@@ -133,23 +151,24 @@ int directions_beside(std::span<const Vector6d> directions, std::span<const Vect
   return static_cast<int>(std::count_if(directions.begin(), directions.end(), is_beside));
 }
 
+std::optional<Eigen::Vector3d> correlation_peak(const ReturnVoxels& keyframe,
+                                                std::span<const Eigen::Vector3d> standing_R,
+                                                const Eigen::Vector3d& p_RL, std::span<const Vector6d> movements,
+                                                double window_m) {
+  if (movements.empty() || keyframe.empty() || standing_R.empty()) return std::nullopt;
+  const std::vector<Eigen::Vector3d> moved_R = moved_returns(keyframe, standing_R, Eigen::Matrix3d::Identity(), p_RL);
+  const std::vector<Place> places = places_of(keyframe, moved_R, {}, movements, window_m);
+  const Place best = *std::max_element(places.begin(), places.end(), meets_less);
+  if (best.met < least_met) return std::nullopt;
+  return pose_at(best, {}, movements).t;
+}
+
 std::optional<Pose> correlate(const ReturnVoxels& keyframe, std::span<const Eigen::Vector3d> standing_R,
                               const Pose& X_KR, const Eigen::Vector3d& p_RL, std::span<const Vector6d> movements,
                               double window_m) {
   if (movements.empty() || keyframe.empty() || standing_R.empty()) return std::nullopt;
   const std::vector<Eigen::Vector3d> moved_R = moved_returns(keyframe, standing_R, X_KR.rotation(), p_RL);
-  const int reach = static_cast<int>(window_m / step_m);
-  const int second_reach = movements.size() > 1 ? reach : 0;
-  std::vector<Place> places;
-  for (int j = -second_reach; j <= second_reach; ++j)
-    for (int i = -reach; i <= reach; ++i) {
-      Place place{i * step_m, j * step_m, 0};
-      const Pose X = pose_at(place, X_KR, movements);
-      const Eigen::Matrix3d R = X.rotation();
-      for (const Eigen::Vector3d& p_R : moved_R) place.met += keyframe.hold(R * p_R + X.t) ? 1 : 0;
-      places.push_back(place);
-    }
-  const auto meets_less = [](const Place& a, const Place& b) { return a.met < b.met; };
+  const std::vector<Place> places = places_of(keyframe, moved_R, X_KR, movements, window_m);
   const Place best = *std::max_element(places.begin(), places.end(), meets_less);
   int elsewhere = 0;
   for (const Place& place : places)
@@ -157,7 +176,6 @@ std::optional<Pose> correlate(const ReturnVoxels& keyframe, std::span<const Eige
 
   // Chosen on five level fields, two bare tunnels and a street of which returns were taken away: of 1,400 places that
   // were found so, 4 were off by more than 0.5 m.
-  constexpr int least_met = 15;
   constexpr double least_share = 0.05;  // of the standing returns: along bare walls the rest goes along with the sensor
   constexpr double expected_lead = 1.3, lead = 2.0, lead_in_two = 3.0;
   constexpr double least_way_m = 3.0 * voxel_m;  // less hardly differs from what goes along with the sensor

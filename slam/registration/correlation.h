@@ -32,8 +32,11 @@ class ReturnVoxels {
 [[nodiscard]] std::vector<Eigen::Vector3d> thinned_returns(const DeskewedScan& scan, double min_range_m,
                                                            double max_range_m);
 
+/// From below to above in R: the mean normal of the surfels that face R's z by 40 degrees or less, else z.
+[[nodiscard]] Eigen::Vector3d up_of(std::span<const Surfel> surfels);
+
 /// Those of thinned returns that stand on the ground: with others above or below, by more than 0.4 m, in a column of
-/// 0.6 m. Up is the mean normal of the scan's surfels that face R's z by 40 degrees or less, else z.
+/// 0.6 m. Up is up_of() the scan's surfels.
 [[nodiscard]] std::vector<Eigen::Vector3d> standing_returns(std::span<const Eigen::Vector3d> returns_R,
                                                             std::span<const Surfel> surfels);
 
@@ -42,6 +45,13 @@ class ReturnVoxels {
 [[nodiscard]] std::vector<Vector6d> movements(std::span<const Vector6d> directions);
 /// How many of the directions are left where those movements are known.
 [[nodiscard]] int directions_beside(std::span<const Vector6d> directions, std::span<const Vector6d> movements);
+
+/// The way from the keyframe, in its frame, to where most of a scan's returns meet its own, if the sensor turned little
+/// meanwhile. Returns count as in correlate(), but the place need not stand out. Nothing where hardly any meet.
+[[nodiscard]] std::optional<Eigen::Vector3d> correlation_peak(const ReturnVoxels& keyframe,
+                                                              std::span<const Eigen::Vector3d> standing_R,
+                                                              const Eigen::Vector3d& p_RL,
+                                                              std::span<const Vector6d> movements, double window_m);
 
 /// Correlative scan matching [olson2009] in directions that nothing else measures. Of the places that one or two
 /// movements lead to from X_KR, increments from the right, each by up to window_m, the one at which most of a scan's

@@ -12,7 +12,7 @@ void RoughMap::add(std::vector<Eigen::Vector3d> points_R, const Pose& X_MR, std:
   std::vector<Eigen::Vector3d> all_M;
   for (const std::vector<Eigen::Vector3d>& points_M : keyframes_)
     all_M.insert(all_M.end(), points_M.begin(), points_M.end());
-  tree_.emplace(std::move(all_M));
+  tree_ = std::make_shared<const KdTree>(std::move(all_M));
 }
 
 std::vector<RoughMatch> RoughMap::match(std::span<const Eigen::Vector3d> points_R, const Pose& X_MR,

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,7 +32,7 @@ class RoughMap {
 
  private:
   std::deque<std::vector<Eigen::Vector3d>> keyframes_;  ///< M
-  std::optional<KdTree> tree_;
+  std::shared_ptr<const KdTree> tree_;                  ///< shared by copies until they add points
 };
 
 /// Normal equations of all distances under a Cauchy kernel, by the right increment. sigma_m: of one.

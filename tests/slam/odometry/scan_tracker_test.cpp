@@ -33,5 +33,22 @@ TEST(ScanTracker, CorrectsTheMotionDuringLongSweeps) {
   EXPECT_NEAR(second_sigma(500'000'000).radps, 1.0, 1e-6);
 }
 
+TEST(ScanTracker, ACopyGoesOnByItself) {
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), {.duration_s = 1.0});
+  ScanTracker tracker({}, recording.calibration, false);
+  const auto track = [&](ScanTracker& by, std::size_t k) {
+    DeskewedScan scan = by.deskewed(recording.scans[k]);
+    return by.track(recording.scans[k], scan).X_MR;
+  };
+  for (std::size_t k = 0; k < 4; ++k) (void)track(tracker, k);
+  ScanTracker copy(tracker);
+  const Pose by_copy = track(copy, 4);
+  (void)track(copy, 5);
+  const Pose by_tracker = track(tracker, 4);
+  EXPECT_EQ(by_copy.t, by_tracker.t);
+  EXPECT_EQ(by_copy.q.coeffs(), by_tracker.q.coeffs());
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -73,6 +73,23 @@ TEST(Correlation, FindsAMotionThatNothingElseTells) {
   EXPECT_GE(found, 50);
 }
 
+TEST(Correlation, PeaksWhereASensorWasThatTurnedLittle) {
+  const Stream random(7, "bim.generate");
+  const std::vector<Vector6d> both = {along(0.0), along(0.5 * M_PI)};
+  for (std::uint64_t trial = 0; trial < 10; ++trial) {
+    const Points points_K = posts(random, trial, 30);
+    const Eigen::Vector3d way_m =
+        (1.0 + 0.2 * static_cast<double>(trial)) * along(static_cast<double>(trial)).head<3>();
+    const Pose X_KR = Pose::from_xyz_yaw(way_m, 0.01);
+    const std::optional<Eigen::Vector3d> peak =
+        correlation_peak(ReturnVoxels(points_K), seen_from(points_K, X_KR), Eigen::Vector3d::Zero(), both, 4.0);
+    ASSERT_TRUE(peak.has_value()) << "trial " << trial;
+    EXPECT_LT((*peak - way_m).norm(), 0.45) << "trial " << trial;
+    EXPECT_FALSE(correlation_peak(ReturnVoxels(points_K), points_K, Eigen::Vector3d::Zero(), both, 4.0).has_value())
+        << "at rest, trial " << trial;
+  }
+}
+
 TEST(Correlation, WhatGoesAlongWithTheSensorTellsNothing) {
   const Points rings = ground();
   EXPECT_FALSE(correlate(ReturnVoxels(rings), rings, Pose{}, {}, std::vector<Vector6d>{along(0.0)}, 2.4));
