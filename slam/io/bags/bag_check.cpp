@@ -73,6 +73,7 @@ class Checker {
     for (std::uint32_t i = 0; i < chunks; ++i) check_chunk_info();
   }
 
+  [[nodiscard]] bool rosbag_unpacks() const { return rosbag_unpacks_; }
   /// Of the record that is being read.
   [[nodiscard]] std::uint64_t start() const { return start_; }
 
@@ -130,6 +131,7 @@ class Checker {
   /// Records of a chunk, checked.
   [[nodiscard]] ChunkRecords unpacked(const Fields& fields) {
     (void)take(data_bytes(ros1::most_chunk_bytes), packed_);
+    rosbag_unpacks_ = rosbag_unpacks_ && ros1::rosbag_unpacks(fields, packed_);
     return records_in(ros1::unpack_chunk(fields, packed_, unpacked_));
   }
 
@@ -176,7 +178,8 @@ class Checker {
 
   InputFile file_;
   std::uint64_t at_ = ros1::first_record, start_ = ros1::first_record;
-  bool in_index_ = false;        ///< behind the last chunk
+  bool in_index_ = false;  ///< behind the last chunk
+  bool rosbag_unpacks_ = true;
   std::uint64_t stream_at_ = 0;  ///< seeking would empty its buffer
   std::vector<char> small_, header_, packed_, unpacked_;
   ChunkRecords chunk_;                            ///< of the last one
@@ -186,11 +189,12 @@ class Checker {
 
 }  // namespace
 
-void check_bag(const std::string& path) {
+bool check_bag(const std::string& path) {
   Checker checker(path);
   const auto place = [&] { return "byte " + std::to_string(checker.start()) + ": "; };
   try {
     checker.check();
+    return checker.rosbag_unpacks();
   } catch (const NoIndex& error) {
     throw NoIndex({path, 0, 0}, place() + error.what());
   } catch (const InputError& error) {

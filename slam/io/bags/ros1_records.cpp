@@ -2,7 +2,8 @@
 #include "slam/io/bags/ros1_records.h"
 
 #include <bzlib.h>
-#include <roslz4/lz4s.h>
+
+#include "slam/io/ros2/compression.h"
 
 namespace plumbline::slam::ros1 {
 
@@ -62,15 +63,22 @@ std::string_view unpack_chunk(const Fields& fields, std::vector<char>& packed, s
   buffer.resize(static_cast<std::size_t>(size));
   auto got = static_cast<unsigned>(size);
   const auto from = static_cast<unsigned>(packed.size());
-  bool good = false;
-  if (compression == "lz4")
-    good = roslz4_buffToBuffDecompress(packed.data(), from, buffer.data(), &got) == ROSLZ4_OK;
-  else if (compression == "bz2")
-    good = BZ2_bzBuffToBuffDecompress(buffer.data(), &got, packed.data(), from, 0, 0) == BZ_OK;
-  else
+  if (compression == "lz4") {
+    unpack_lz4({reinterpret_cast<const std::uint8_t*>(packed.data()), packed.size()},
+               {reinterpret_cast<std::uint8_t*>(buffer.data()), buffer.size()});
+  } else if (compression == "bz2") {
+    if (BZ2_bzBuffToBuffDecompress(buffer.data(), &got, packed.data(), from, 0, 0) != BZ_OK || got != size)
+      throw InputError({}, "a chunk that cannot be unpacked");
+  } else {
     throw InputError({}, "a chunk packed by '" + compression.substr(0, 40) + "'; lz4, bz2 or none would be right");
-  if (!good || got != size) throw InputError({}, "a chunk that cannot be unpacked");
+  }
   return {buffer.data(), buffer.size()};
+}
+
+bool rosbag_unpacks(const Fields& fields, const std::vector<char>& packed) {
+  constexpr std::size_t options_at = 4;
+  constexpr char only_options = 0x64;  // version 1, independent blocks, a checksum of the content, nothing else
+  return text_of(fields, "compression") != "lz4" || (packed.size() > options_at && packed[options_at] == only_options);
 }
 
 }  // namespace plumbline::slam::ros1

@@ -56,4 +56,7 @@ struct Record {
 /// bytes cannot hold what the header says.
 [[nodiscard]] std::string_view unpack_chunk(const Fields& fields, std::vector<char>& packed, std::vector<char>& buffer);
 
+/// Whether rosbag unpacks this chunk, too: it knows one kind of lz4 frame, other programs write all kinds.
+[[nodiscard]] bool rosbag_unpacks(const Fields& fields, const std::vector<char>& packed);
+
 }  // namespace plumbline::slam::ros1

@@ -104,7 +104,7 @@ class Ros1Source final : public MessageSource {
 std::unique_ptr<MessageSource> open_ros1_bag(const std::string& path) {
   console_bridge::noOutputHandler();  // the library prints what it also throws
   try {
-    check_bag(path);
+    if (!check_bag(path)) return open_unindexed_bag(path, encoding_of_type, true);
   } catch (const NoIndex&) {
     return open_unindexed_bag(path, encoding_of_type);
   } catch (const InputError&) {

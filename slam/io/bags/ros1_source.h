@@ -8,7 +8,7 @@
 
 namespace plumbline::slam {
 
-/// Opens a ROS 1 bag after check_bag(), one without an index by open_unindexed_bag(). Throws InputError.
+/// Opens a ROS 1 bag after check_bag(), one that rosbag cannot read by open_unindexed_bag(). Throws InputError.
 [[nodiscard]] std::unique_ptr<MessageSource> open_ros1_bag(const std::string& path);
 
 }  // namespace plumbline::slam

@@ -28,8 +28,8 @@ constexpr std::uint64_t most_run_bytes = std::uint64_t{1}
 
 class UnindexedBag final : public MessageSource {
  public:
-  UnindexedBag(const std::string& path, EncodingOfType encoding_of)
-      : mark_{path, 0, 0}, file_(open_input_file(path)), encoding_of_(encoding_of) {
+  UnindexedBag(const std::string& path, EncodingOfType encoding_of, bool sound)
+      : mark_{path, 0, 0}, file_(open_input_file(path)), encoding_of_(encoding_of), sound_(sound) {
     end_ = file_.bytes;
     try {
       find_messages();
@@ -68,6 +68,7 @@ class UnindexedBag final : public MessageSource {
   [[nodiscard]] std::vector<std::string> left_out() const override {
     if (!closed_ && lost_ == 0) return {not_closed(rest_, file_.bytes)};
     const std::string said = closed_ ? "the bag is damaged" : "the bag was not closed or is cut off, and is damaged";
+    if (lost_ + rest_ == 0 && sound_) return {};
     if (lost_ + rest_ == 0) return {said + " in its index; all messages are read"};
     return {said + "; " + std::to_string(lost_ + rest_) + " of its " + std::to_string(file_.bytes) +
             " bytes cannot be read and are left out" + (fault_.empty() ? "" : ", the first at " + fault_)};
@@ -298,6 +299,7 @@ class UnindexedBag final : public MessageSource {
   Mark mark_;
   InputFile file_;
   EncodingOfType encoding_of_;
+  bool sound_ = false;
   std::vector<BagTopic> topics_;
   std::map<std::uint32_t, std::uint32_t> topic_of_;  ///< by connection
   std::vector<Block> blocks_;
@@ -318,8 +320,8 @@ class UnindexedBag final : public MessageSource {
 
 }  // namespace
 
-std::unique_ptr<MessageSource> open_unindexed_bag(const std::string& path, EncodingOfType encoding_of) {
-  return std::make_unique<UnindexedBag>(path, encoding_of);
+std::unique_ptr<MessageSource> open_unindexed_bag(const std::string& path, EncodingOfType encoding_of, bool sound) {
+  return std::make_unique<UnindexedBag>(path, encoding_of, sound);
 }
 
 }  // namespace plumbline::slam

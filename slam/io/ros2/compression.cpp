@@ -49,18 +49,8 @@ Lz4Context lz4_context() {
 Bytes from_lz4(std::span<const std::uint8_t> bytes, std::uint64_t size) {
   constexpr std::uint64_t most_ratio = 255;  // of the format
   check_size(size, bytes.size(), most_ratio);
-  const Lz4Context context = lz4_context();
   Bytes out(size);
-  std::size_t at = 0, from = 0, left = 1;
-  while (left != 0 && from < bytes.size()) {
-    std::size_t room = out.size() - at, taken = bytes.size() - from;
-    left = LZ4F_decompress(context.get(), out.data() + at, &room, bytes.data() + from, &taken, nullptr);
-    if (LZ4F_isError(left) != 0) throw InputError({}, std::string("damaged lz4 data: ") + LZ4F_getErrorName(left));
-    if (room == 0 && taken == 0) break;
-    at += room;
-    from += taken;
-  }
-  if (left != 0 || at != size || from != bytes.size()) throw InputError({}, "lz4 data of another size than stated");
+  unpack_lz4(bytes, out);
   return out;
 }
 
@@ -118,6 +108,21 @@ Bytes unpack_beginning(std::string_view compression, std::span<const std::uint8_
     if (LZ4F_isError(left) != 0) taken = made = 0;
     return left != 0 && LZ4F_isError(left) == 0;
   });
+}
+
+void unpack_lz4(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> out) {
+  const Lz4Context context = lz4_context();
+  std::size_t at = 0, from = 0, left = 1;
+  while (left != 0 && from < bytes.size()) {
+    std::size_t room = out.size() - at, taken = bytes.size() - from;
+    left = LZ4F_decompress(context.get(), out.data() + at, &room, bytes.data() + from, &taken, nullptr);
+    if (LZ4F_isError(left) != 0) throw InputError({}, std::string("damaged lz4 data: ") + LZ4F_getErrorName(left));
+    if (room == 0 && taken == 0) break;
+    at += room;
+    from += taken;
+  }
+  if (left != 0 || at != out.size() || from != bytes.size())
+    throw InputError({}, "lz4 data of another size than stated");
 }
 
 Bytes unpack_zstd(std::span<const std::uint8_t> bytes) {

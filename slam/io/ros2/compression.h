@@ -18,6 +18,8 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30U;
 /// The same of bytes that are cut off, or damaged from some place on: what comes out before, at most `size` bytes.
 [[nodiscard]] std::vector<std::uint8_t> unpack_beginning(std::string_view compression,
                                                          std::span<const std::uint8_t> bytes, std::uint64_t size);
+/// One lz4 frame, of whatever options, that fills `out` exactly. Throws InputError without a mark.
+void unpack_lz4(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> out);
 /// A zstd frame that says its own size.
 [[nodiscard]] std::vector<std::uint8_t> unpack_zstd(std::span<const std::uint8_t> bytes);
 /// The other way, with "", "zstd" or "lz4".
