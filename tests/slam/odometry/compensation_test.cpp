@@ -41,6 +41,27 @@ TEST(CompensationTest, TellsRawCloudsFromDeskewedOnes) {
     }
 }
 
+// As of drivers that turn clouds of a tilted LiDAR into the robot's axes.
+TEST(CompensationTest, TellsThemInAFrameTiltedAgainstTheHead) {
+  const Pose step = Pose::from_xyz_yaw({0.06, 0.02, 0.0}, 0.02);
+  const Eigen::Vector3d velocity = step.t / 0.1;
+  for (const double tilt : {-0.5, -0.1, 0.1, 0.5, 1.5, 3.1})
+    for (const double about : {0.0, 0.8, 1.6, 2.4}) {
+      const Eigen::Vector3d axis(std::cos(about), std::sin(about), 0.0);
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(tilt, axis));
+      CompensationTest raw, deskewed;
+      for (const bool compensated : {false, true}) {
+        Scan scan = moving_scan(step, compensated);
+        for (Eigen::Vector3d& p : scan.point_L) p = turn * p;
+        CompensationTest& test = compensated ? deskewed : raw;
+        for (int k = 0; k < 200 && !test.is_settled(); ++k) test.add(scan, turn * velocity);
+        EXPECT_TRUE(test.is_settled()) << tilt << " about " << about;
+      }
+      EXPECT_FALSE(raw.compensated()) << tilt << " about " << about;
+      EXPECT_TRUE(deskewed.compensated()) << tilt << " about " << about;
+    }
+}
+
 TEST(CompensationTest, SaysNothingOfARobotAtRestNorOfScansWithoutTimes) {
   CompensationTest test;
   const Pose step = Pose::from_xyz_yaw({1.0, 0.0, 0.0}, 0.0);
