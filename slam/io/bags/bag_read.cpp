@@ -14,6 +14,7 @@
 #include "slam/io/bags/odometry_motion.h"
 #include "slam/io/bags/record_queue.h"
 #include "slam/io/bags/ros_message.h"
+#include "slam/io/bags/topic_clocks.h"
 #include "slam/io/bags/transform_odometry.h"
 #include "slam/io/packets/point_units.h"
 
@@ -67,6 +68,8 @@ class BagRecording final : public Recording {
                     " no moving odom -> base_link to which the LiDAR is joined");
     if (impossible_fixed_ > 0) all.push_back(ros::impossible_transforms("/tf_static", impossible_fixed_));
     const auto scans = [&](std::int64_t n) { return topics_.points + ": " + share_of(n, scans_.read(), "scans"); };
+    if (const std::string apart = clocks_.difference(topics_.points, topics_.odometry); !apart.empty())
+      all.push_back(apart + "; both must be on one clock");
     if (early_ > 0) all.push_back(scans(early_) + " left out: before the first odometry");
     if (without_rings_ > 0) all.push_back(scans(without_rings_) + " read " + std::string(one_ring_number));
     return all;
@@ -74,14 +77,13 @@ class BagRecording final : public Recording {
   [[nodiscard]] std::vector<std::string> assumed() const override {
     std::vector<std::string> all = units_.said();
     if (!times_.said.empty()) all.push_back(times_.said);
+    if (unstamped_) all.push_back("the stamps of clouds are 0; the times of recording are taken for them");
     for (std::string& said : all) said = topics_.points + ": " + said;
     return all;
   }
   [[nodiscard]] Taken taken() const override {
-    Taken taken{topics_.points, topics_.odometry, unjoined_imu_ ? "" : topics_.imu, {}, lidar_, mount_};
-    for (const BagTopic& topic : source_->topics())
-      if (is_cloud(topic.type) && topic.name != topics_.points) taken.other_points.push_back(topic.name);
-    return taken;
+    const std::string imu = unjoined_imu_ ? std::string() : topics_.imu;
+    return {topics_.points, topics_.odometry, imu, other_clouds(*source_, topics_.points), lidar_, mount_};
   }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {
@@ -119,10 +121,12 @@ class BagRecording final : public Recording {
 
   [[nodiscard]] ros::FramedCloud cloud_of(const RawMessage& message) const {
     const BagTopic& topic = topic_of(message);
-    return messages_.named(message, [&] {
+    ros::FramedCloud said = messages_.named(message, [&] {
       return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
                                   : ros::read_cloud(message.bytes, topic.encoding);
     });
+    if (unstamped_ && said.cloud.stamp == 0) said.cloud.stamp = message.time;
+    return said;
   }
 
   /// Returns how many hold numbers that are no pose.
@@ -157,10 +161,11 @@ class BagRecording final : public Recording {
       if (!lidar.empty() && (!base_.empty() || topics_.odometry.empty())) break;
     }
     if (!any_cloud) throw InputError(mark_, "a bag without messages on " + topics_.points);
+    if (topics_.odometry.empty()) base_ = robot_above(lidar, frames_);
     return lidar;
   }
 
-  /// Without odometry R is the LiDAR's frame, unless the owner says otherwise.
+  /// Without odometry and base_link R is the LiDAR's frame, unless the owner says otherwise.
   void find_mount() {
     std::optional<Pose> X_RL = frames_.find(lidar_, base_);
     if (X_RL && lidar_ != base_) mount_ = MountSource::tf_static;
@@ -185,7 +190,8 @@ class BagRecording final : public Recording {
     } else if (!frames_.empty() && !lidar_.empty() && !base_.empty()) {
       throw InputError(mark_, topics_.points + " is in frame '" + lidar_ + "', which /tf_static does not join to '" +
                                   base_ +
-                                  "'; give the mount with --description, or name another topic with --points-topic");
+                                  "'; give the mount with --description, or name another topic with --points-topic" +
+                                  in_brackets(other_clouds(*source_, topics_.points)));
     }
   }
 
@@ -200,7 +206,20 @@ class BagRecording final : public Recording {
     }
   }
 
+  /// True where no cloud of the first three has a stamp. One alone may be at a simulation's start.
+  [[nodiscard]] bool are_unstamped() {
+    constexpr int enough = 3;
+    int clouds = 0;
+    bool stamped = false;
+    show_clouds([&](const PointCloud& cloud) {
+      stamped = stamped || cloud.stamp != 0;
+      return !stamped && ++clouds < enough;
+    });
+    return clouds > 1 && !stamped;
+  }
+
   void find_times() {
+    unstamped_ = are_unstamped();
     TimeBaseSearch search;
     show_clouds([&](const PointCloud& cloud) { return search.add(cloud); });
     SweepLengthSearch lengths(search.base());
@@ -238,12 +257,6 @@ class BagRecording final : public Recording {
     while (!ready() && messages_.next(message)) read(message);
   }
 
-  /// Livox's drivers give accelerations in g: what is near 1 at rest cannot be in m/s^2.
-  static double gravity_in(const Imu& first) {
-    constexpr double standard_gravity = 9.80665, tolerance = 0.15;
-    return std::abs(first.linear_acceleration_R.norm() - 1.0) < tolerance ? standard_gravity : 1.0;
-  }
-
   static Nanoseconds least_offset(const Scan& scan) {
     const auto least = std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
     return least == scan.offset_ns.end() ? 0 : *least;
@@ -265,9 +278,12 @@ class BagRecording final : public Recording {
       throw InputError(mark_, topics_.odometry + ": " + share_of(odometry_.lost(), odometry_.read(), "records") +
                                   " hold numbers that are no pose, or come late; at most half are left out");
     check_odometry(1);
-    if (!started_) throw InputError(mark_, topics_.odometry + ": " + std::string(no_odometry));
-    if (odometry_.last() && first_scan_ && *odometry_.last() < *first_scan_)
-      throw InputError(mark_, topics_.odometry + ": " + std::string(odometry_over));
+    const std::string apart = clocks_.difference(topics_.points, topics_.odometry);
+    const auto fail = [&](std::string_view why) {
+      throw InputError(mark_, topics_.odometry + ": " + std::string(why) + (apart.empty() ? "" : " " + apart));
+    };
+    if (!started_) fail(no_odometry);
+    if (odometry_.last() && first_scan_ && *odometry_.last() < *first_scan_) fail(odometry_over);
   }
 
   void check_odometry(std::int64_t more_than) const {
@@ -300,13 +316,16 @@ class BagRecording final : public Recording {
       CloudScan read = messages_.named(message, [&] { return read_scan(said.cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
       units_.add(read);
+      clocks_.add_scan(read.scan.stamp, message.time);
       read.scan.stamp = shifted(read.scan.stamp);
       scans_.add(read.scan, topics_.points);
     } else if (is_odometry(topic.type)) {
-      if (const auto said = odometry_of(message))
+      if (const auto said = odometry_of(message)) {
+        clocks_.add_odometry(said->X_OR.stamp, message.time);
         take(*said);
-      else
+      } else {
         odometry_.leave_out();
+      }
     } else if (is_imu(topic.type)) {
       if (const auto said = messages_.possible(message, [&] { return ros::read_imu(message.bytes, topic.encoding); }))
         take(*said);
@@ -347,11 +366,13 @@ class BagRecording final : public Recording {
   RecordingInfo info_;
   bool described_ = false;  ///< by its owner
   FrameTree frames_;
-  std::string base_;   ///< R; empty without odometry
+  std::string base_;   ///< R; empty where it is not known
   std::string lidar_;  ///< L
   MountSource mount_ = MountSource::unknown;
   AssumedTimes times_;
   PointUnits units_;
+  TopicClocks clocks_;
+  bool unstamped_ = false;  ///< the clouds
   OneFrame scan_frame_, odometry_frame_;
   RecordQueue<Scan> scans_;
   RecordQueue<Odometry> odometry_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/bags/bag_topics.h"
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,12 +16,33 @@ constexpr std::string_view cloud_type = "sensor_msgs/PointCloud2", odometry_type
 
 using IsType = bool (*)(std::string_view);
 
-/// The first topic of a type, or none; truth is not looked for.
-std::string first_topic(const MessageSource& source, IsType is) {
+/// The topics of a type; truth is not looked for.
+std::vector<std::string> topics_of(const MessageSource& source, IsType is) {
+  std::vector<std::string> names;
   for (const BagTopic& topic : source.topics())
     if (is(topic.type) && topic.encoding != Encoding::unknown && !topic.name.starts_with("/ground_truth"))
-      return topic.name;
-  return {};
+      names.push_back(topic.name);
+  return names;
+}
+std::string first_topic(const MessageSource& source, IsType is) {
+  const std::vector<std::string> names = topics_of(source, is);
+  return names.empty() ? std::string() : names.front();
+}
+
+/// The first topic of clouds, but none that has few while another has many.
+std::string first_scans(MessageSource& source) {
+  constexpr int enough = 40;  // of one topic to compare the others with it
+  constexpr int few = 8;      // times fewer; a LiDAR at 5 Hz may stand beside a camera at 30 Hz
+  const std::vector<std::string> names = topics_of(source, is_cloud);
+  if (names.size() < 2) return names.empty() ? std::string() : names.front();
+  std::map<std::string, int> counts;
+  int most = 0;
+  source.select(names);
+  for (RawMessage message; most < enough && source.next(message);)
+    most = std::max(most, ++counts[source.topics()[message.topic].name]);
+  for (const std::string& name : names)
+    if (few * counts[name] >= most) return name;
+  return names.front();
 }
 
 /// What a driver records before it makes clouds.
@@ -69,9 +92,9 @@ bool is_odometry(std::string_view type) { return type == odometry_type; }
 bool is_imu(std::string_view type) { return type == imu_type; }
 bool is_transforms(std::string_view type) { return type == transforms_type; }
 
-BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark) {
+BagTopics choose_topics(MessageSource& source, const BagTopics& asked, const Mark& mark) {
   BagTopics topics = asked;
-  if (topics.points.empty()) topics.points = first_topic(source, is_cloud);
+  if (topics.points.empty()) topics.points = first_scans(source);
   if (topics.odometry.empty()) topics.odometry = first_topic(source, is_odometry);
   if (topics.imu.empty()) topics.imu = first_topic(source, is_imu);
   if (topics.points.empty())
@@ -80,6 +103,19 @@ BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, con
   if (!topics.odometry.empty()) check_topic(source, topics.odometry, is_odometry, odometry_type, mark);
   if (!topics.imu.empty()) check_topic(source, topics.imu, is_imu, imu_type, mark);
   return topics;
+}
+
+std::vector<std::string> other_clouds(const MessageSource& source, std::string_view points) {
+  std::vector<std::string> names;
+  for (const BagTopic& topic : source.topics())
+    if (is_cloud(topic.type) && topic.name != points) names.push_back(topic.name);
+  return names;
+}
+
+std::string in_brackets(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? " (" : ", ") + name;
+  return list.empty() ? list : list + ")";
 }
 
 bool holds_odometry(const MessageSource& source) { return !first_topic(source, is_odometry).empty(); }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bim/errors.h"
 #include "slam/io/bags/bag.h"
@@ -17,9 +18,15 @@ namespace plumbline::slam {
 [[nodiscard]] bool is_imu(std::string_view type);
 [[nodiscard]] bool is_transforms(std::string_view type);
 
-/// The topics to read: those asked for, else the first of each type, without truth; empty where there is none. Throws
-/// InputError at the mark where no topic holds clouds, or one asked for is not there or of another type.
-[[nodiscard]] BagTopics choose_topics(const MessageSource& source, const BagTopics& asked, const Mark& mark);
+/// The topics to read: those asked for, else the first of each type, without truth; empty where there is none. A topic
+/// with hardly any clouds, as of a map, is no first one beside a topic with many. Throws InputError at the mark where
+/// no topic holds clouds, or one asked for is not there or of another type.
+[[nodiscard]] BagTopics choose_topics(MessageSource& source, const BagTopics& asked, const Mark& mark);
+
+/// The topics of clouds besides `points`.
+[[nodiscard]] std::vector<std::string> other_clouds(const MessageSource& source, std::string_view points);
+/// " (/front, /rear)"; empty where there are none.
+[[nodiscard]] std::string in_brackets(const std::vector<std::string>& names);
 
 /// Whether a topic that could be read holds odometry, which is no truth.
 [[nodiscard]] bool holds_odometry(const MessageSource& source);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/bags/frame_tree.h"
 
+#include <cmath>
+
 #include "slam/io/bags/record_queue.h"
 
 namespace plumbline::slam {
@@ -71,6 +73,17 @@ bool OneFrame::takes(const std::string& frame) {
 
 std::string OneFrame::others_of(std::int64_t taken, std::string_view what) const {
   return share_of(others_, taken + others_, what) + " in frame '" + other_ + "', not in '" + frame_ + "' as the first";
+}
+
+std::string robot_above(const std::string& lidar, const FrameTree& frames) {
+  for (const char* name : {"base_link", "base_footprint"})
+    if (lidar != name && frames.find(lidar, name)) return name;
+  return {};
+}
+
+double gravity_in(const Imu& first) {
+  constexpr double standard_gravity = 9.80665, tolerance = 0.15;
+  return std::abs(first.linear_acceleration_R.norm() - 1.0) < tolerance ? standard_gravity : 1.0;
 }
 
 std::optional<Imu> in_robot(const ros::FramedImu& said, const FrameTree& frames, const std::string& base) {

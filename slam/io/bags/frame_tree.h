@@ -65,6 +65,13 @@ class OneFrame {
   std::int64_t others_ = 0;
 };
 
+/// The frame that a robot has by convention, base_link or base_footprint, where the tree joins the LiDAR's to it; empty
+/// where it does not.
+[[nodiscard]] std::string robot_above(const std::string& lidar, const FrameTree& frames);
+
+/// m/s² of the unit that accelerations are in: drivers of Livox give g, and what is near 1 at rest is no m/s².
+[[nodiscard]] double gravity_in(const Imu& first);
+
 /// An IMU's measurements along the axes of R, whose frame is `base`; what its lever arm adds to the acceleration is
 /// left in. A frame without a name is R, and where R has none, no other frame can be resolved. Nothing where the tree
 /// does not join them.

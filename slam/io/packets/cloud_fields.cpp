@@ -72,7 +72,7 @@ double number_at(const std::uint8_t* bytes, PointType type) {
 // Livox's `line` is no ring: its lines cross each other.
 const PointField* ring_field(const PointCloud& cloud) { return find_field(cloud, {"ring", "channel"}); }
 const PointField* time_field(const PointCloud& cloud) {
-  return find_field(cloud, {"t", "time", "timestamp", "time_stamp"});
+  return find_field(cloud, {"t", "time", "timestamp", "time_stamp", "offset_time", "time_offset", "time_offset_ns"});
 }
 
 bool is_in_mm(const PointCloud& cloud) {

@@ -39,8 +39,9 @@ class AlteredWalk : public ::testing::Test {
     return -*std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
   }
 
- private:
   Folder folder_;
+
+ private:
   int written_ = 0;
 };
 
@@ -264,6 +265,80 @@ TEST_F(AlteredWalk, AMountIsTakenFromWhereverItStandsStill) {
   walk.transforms = "/tf";
   walk.mount = [&](int i) { return Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0 + 1e-3 * i); };
   EXPECT_EQ(read(walk).taken.mount, MountSource::unknown) << "a LiDAR that turns on the robot";
+}
+
+TEST_F(AlteredWalk, CloudsWithoutStampsAreOfTheTimesOfRecording) {
+  Alteration walk;
+  walk.cloud = [](int, PointCloud& cloud) { cloud.stamp = 0; };
+  const Read plain = read({}), out = read(walk);
+  ASSERT_EQ(out.frames.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Nanoseconds recorded = plain.frames[i].scan.stamp;  // the times of points count from it
+    EXPECT_EQ(out.frames[i].scan.stamp, recorded + length(plain.frames[i].scan)) << i;
+  }
+  ASSERT_EQ(out.assumed.size(), 1U);
+  EXPECT_EQ(out.assumed[0], "/velodyne_points: the stamps of clouds are 0; the times of recording are taken for them");
+  // A simulation's first cloud may be at 0.
+  walk.cloud = [](int i, PointCloud& cloud) { cloud.stamp = i == 0 ? 0 : cloud.stamp; };
+  EXPECT_TRUE(read(walk).assumed.empty());
+}
+
+TEST_F(AlteredWalk, WithoutOdometryTheMountIsInBaseLink) {
+  Alteration walk;
+  walk.has_odometry = false;
+  walk.mount = [](int) { return Pose::from_xyz_yaw({0.1, -0.2, 0.3}, 1.0); };
+  const Read out = read(walk);
+  EXPECT_EQ(out.taken.mount, MountSource::tf_static);
+  EXPECT_LT((out.mount.t - Eigen::Vector3d(0.1, -0.2, 0.3)).norm(), 1e-9);
+  EXPECT_EQ(out.taken.imu, "/imu/data");
+  walk.cloud_frame = [](int) { return "elsewhere"; };
+  EXPECT_EQ(read(walk).taken.mount, MountSource::unknown);
+}
+
+TEST_F(AlteredWalk, StampsOfTwoClocksAreSaid) {
+  for (const int ahead_s : {37, -37}) {
+    Alteration walk;
+    walk.cloud = [&](int, PointCloud& cloud) { cloud.stamp += std::max(ahead_s, 0) * 1'000'000'000LL; };
+    walk.odometry = [&](int, ros::OdometryMessage& message) {
+      message.X_OR.stamp += std::max(-ahead_s, 0) * 1'000'000'000LL;
+    };
+    const std::string said = input_error([&] { read(walk); });
+    const std::string apart = ahead_s > 0 ? "37.0 s ahead of those on /odom" : "37.0 s behind those on /odom";
+    EXPECT_NE(said.find("both on one clock? the stamps on /velodyne_points are " + apart), std::string::npos) << said;
+  }
+}
+
+TEST_F(AlteredWalk, TimesHaveTheNamesThatDriversGiveThem) {
+  const Read plain = read({});
+  for (const char* name : {"t", "timestamp", "time_stamp", "offset_time", "time_offset"}) {
+    Alteration walk;
+    walk.cloud = [&](int, PointCloud& cloud) {
+      for (PointField& field : cloud.fields)
+        if (field.name == "time") field.name = name;
+    };
+    const Read out = read(walk);
+    ASSERT_EQ(out.frames.size(), 4U) << name;
+    EXPECT_EQ(out.frames[1].scan.offset_ns, plain.frames[1].scan.offset_ns) << name;
+  }
+}
+
+// A map that stands first in a bag holds no scans.
+TEST_F(AlteredWalk, ATopicWithHardlyAnyCloudsIsNotTheFirst) {
+  const std::string path = folder_ / "maps";
+  const auto sink = make_rosbag2_sink(path, "maps");
+  const SensorFrame frame = walk_of_four_scans().front();
+  const auto write = [&](const std::string& topic, Nanoseconds time) {
+    PointCloud cloud = cloud_of(frame.scan, CloudLayout::organised);
+    cloud.stamp += time;
+    sink->write(topic, MessageType::cloud, time, ros::write_cloud(cloud, "map", Encoding::cdr), false);
+  };
+  write("/map", 0);
+  for (int i = 0; i < 12; ++i) write("/scans", i * 100'000'000);
+  for (int i = 0; i < 12; ++i) write("/other_scans", i * 100'000'000);
+  sink->finish();
+  EXPECT_EQ(open_bag(path, {}, nullptr)->taken().points, "/scans");
+  EXPECT_EQ(open_bag(path, {}, nullptr)->taken().other_points, (std::vector<std::string>{"/map", "/other_scans"}));
+  EXPECT_EQ(open_bag(path, {.points = "/map"}, nullptr)->taken().points, "/map");
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "slam/io/records.h"
+
+namespace plumbline::slam {
+
+/// Whether two topics are stamped by one clock. The times of recording are those of one computer, and come soon after
+/// the stamps.
+class TopicClocks {
+ public:
+  /// A record's stamp and the time it was recorded. The first of a topic counts.
+  void add_scan(Nanoseconds stamp, Nanoseconds recorded) { add(scans_, stamp, recorded); }
+  void add_odometry(Nanoseconds stamp, Nanoseconds recorded) { add(odometry_, stamp, recorded); }
+
+  /// "the stamps on /points are 37.0 s ahead of those on /odom, by the times of recording"; empty where they are not
+  /// plainly apart.
+  [[nodiscard]] std::string difference(const std::string& scans, const std::string& odometry) const {
+    constexpr double most_s = 5.0;  // of a scan, and of what may be computed before it is recorded
+    if (!scans_ || !odometry_) return {};
+    const double ahead_s = seconds(*scans_ - *odometry_);
+    if (std::abs(ahead_s) <= most_s) return {};
+    char text[64];
+    std::snprintf(text, sizeof text, " are %.1f s %s those on ", std::abs(ahead_s),
+                  ahead_s > 0.0 ? "ahead of" : "behind");
+    return "the stamps on " + scans + text + odometry + ", by the times of recording";
+  }
+
+ private:
+  static void add(std::optional<Nanoseconds>& first, Nanoseconds stamp, Nanoseconds recorded) {
+    if (!first) first = stamp - recorded;
+  }
+
+  std::optional<Nanoseconds> scans_, odometry_;  ///< stamp less the time of recording
+};
+
+}  // namespace plumbline::slam

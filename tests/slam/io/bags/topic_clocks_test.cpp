@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam/io/bags/topic_clocks.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::slam {
+namespace {
+
+constexpr Nanoseconds second = 1'000'000'000;
+
+TEST(TopicClocksTest, SaysHowFarStampsAreApart) {
+  const auto said = [](Nanoseconds scan, Nanoseconds odometry) {
+    TopicClocks clocks;
+    clocks.add_scan(scan, 100 * second);
+    clocks.add_odometry(odometry, 103 * second);
+    clocks.add_scan(500 * second, 100 * second);  // the first one counts
+    return clocks.difference("/a", "/b");
+  };
+  EXPECT_EQ(said(137 * second, 103 * second),
+            "the stamps on /a are 37.0 s ahead of those on /b, by the times of recording");
+  EXPECT_EQ(said(50 * second, 103 * second),
+            "the stamps on /a are 50.0 s behind those on /b, by the times of recording");
+  EXPECT_EQ(said(100 * second, 101 * second), "");            // an odometry that takes long to compute
+  EXPECT_EQ(said(3 * 3600 * second, 3 * 3600 * second), "");  // a bag recorded again
+}
+
+TEST(TopicClocksTest, OneTopicTellsNothing) {
+  TopicClocks clocks;
+  clocks.add_scan(0, 100 * second);
+  EXPECT_EQ(clocks.difference("/a", ""), "");
+}
+
+}  // namespace
+}  // namespace plumbline::slam
