@@ -60,7 +60,10 @@ StampedPose parse_tum_line(std::string_view line, const Mark& mark) {
     throw InputError(mark, std::to_string(columns.size()) + " columns; a TUM line has 8: t tx ty tz qx qy qz qw");
   StampedPose pose;
   std::array<double, 7> v{};
-  bool good = parse_stamp(columns[0], pose.stamp);
+  double time = 0.0;
+  bool good = parse_number(columns[0], time);
+  if (good && !parse_stamp(columns[0], pose.stamp))
+    throw InputError(mark, "'" + std::string(columns[0]) + "' is no time in seconds; is it in nanoseconds?");
   for (std::size_t i = 0; i < v.size(); ++i) good = parse_number(columns[i + 1], v[i]) && good;
   if (!good) throw InputError(mark, "not a number; a TUM line has 8 numbers: t tx ty tz qx qy qz qw");
   pose.X_FR = checked_pose({v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}, mark);
