@@ -27,6 +27,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,12 +74,13 @@ struct Scan {
   View<float> reflectivity;      ///< 0 to 255
   View<std::int32_t> offset_ns;  ///< relative to the scan's stamp, <= 0
 
-  /// What came back, in the LiDAR's frame at each point's own time; Point is made of x, y, z (Eigen::Vector3d).
+  /// What came back, in the LiDAR's frame at each point's own time; Point is made of x, y, z (Eigen::Vector3d), or has
+  /// them as members of type double (std::array<double, 3>).
   template <class Point>
   [[nodiscard]] std::vector<Point> points() const {
     std::vector<Point> out;
     for (std::size_t i = 0; i < range_m.size(); ++i)
-      if (range_m[i] > 0.0) out.push_back(Point(point_L[i].x, point_L[i].y, point_L[i].z));
+      if (range_m[i] > 0.0) out.push_back(made<Point>(point_L[i]));
     return out;
   }
   /// Of these points, 0 at the first to 1 at the last; empty where all have one time, since there is nothing to deskew.
@@ -94,6 +96,15 @@ struct Scan {
     for (std::size_t i = 0; i < range_m.size(); ++i)
       if (range_m[i] > 0.0) out.push_back((double(offset_ns[i]) - first) / (double(last) - first));
     return out;
+  }
+
+ private:
+  template <class Point>
+  [[nodiscard]] static Point made(const wire::Point& p) {
+    if constexpr (std::is_constructible_v<Point, double, double, double>)
+      return Point(p.x, p.y, p.z);
+    else
+      return Point{p.x, p.y, p.z};
   }
 };
 
