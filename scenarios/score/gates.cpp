@@ -63,6 +63,10 @@ std::string why_absent(std::string_view metric, const MethodScore& score) {
   return score.name + " has no such metric";
 }
 
+std::string lost(const MethodScore& score) {
+  return std::string("the method was lost") + (score.localization ? "" : ": fewer than 95 % of the scans have a pose");
+}
+
 }  // namespace
 
 GateResult judge_gate(const GateSpec& gate, const std::string& method, std::optional<double> value, std::string but) {
@@ -84,7 +88,7 @@ std::vector<GateResult> judge_gates(const std::vector<GateSpec>& gates, const st
       value = metric.value(*score);
       but = !run_completed                                       ? "the run ended early"
             : score->verdict == "crashed"                        ? "the method crashed"
-            : score->verdict == "lost" && !metric.also_when_lost ? "the method was lost"
+            : score->verdict == "lost" && !metric.also_when_lost ? lost(*score)
             : value                                              ? ""
                                                                  : why_absent(gate.metric, *score);
     }
