@@ -4,15 +4,18 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <string_view>
 
-#include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "scenarios/host/interrupt.h"
 
@@ -34,6 +37,17 @@ constexpr int could_not_start = 127;
   ::_exit(could_not_start);
 }
 
+/// Of what a child wrote to its log.
+std::string last_line(int log) {
+  std::array<char, 8192> bytes{};
+  const off_t end = ::lseek(log, 0, SEEK_END);
+  const off_t from = std::max<off_t>(0, end - static_cast<off_t>(bytes.size()));
+  const ssize_t got = ::pread(log, bytes.data(), bytes.size(), from);
+  std::string_view text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  return std::string(text.substr(text.rfind('\n') + 1));
+}
+
 /// The children that run, stopped with this object.
 class Running {
  public:
@@ -43,35 +57,37 @@ class Running {
   /// A child that is asked to stop ends its methods and all that those started; a killed one only the methods.
   ~Running() {
     constexpr int tries = 500, pause_ms = 10;
-    for (const auto& [pid, index] : children_) ::kill(pid, SIGTERM);
+    for (const auto& [pid, child] : children_) ::kill(pid, SIGTERM);
     for (int i = 0; i < tries && !children_.empty(); ++i) {
       std::erase_if(children_, [](const auto& child) { return ::waitpid(child.first, nullptr, WNOHANG) != 0; });
       if (!children_.empty()) ::poll(nullptr, 0, pause_ms);
     }
-    for (const auto& [pid, index] : children_) ::kill(pid, SIGKILL);
-    for (const auto& [pid, index] : children_) ::waitpid(pid, nullptr, 0);
+    for (const auto& [pid, child] : children_) ::kill(pid, SIGKILL);
+    for (const auto& [pid, child] : children_) ::waitpid(pid, nullptr, 0);
   }
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  void start(std::size_t index, std::vector<std::string> arguments, const std::string& log_path) {
+  void start(std::size_t index, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "plumbline");
     std::vector<char*> argv;
     for (std::string& text : arguments) argv.push_back(text.data());
     argv.push_back(nullptr);
-    const int log = ::open(log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (log < 0) throw EnvironmentError(log_path + ": cannot be written: " + std::strerror(errno));
+    const int log = ::memfd_create("log", MFD_CLOEXEC);
+    if (log < 0) throw EnvironmentError(std::string("sweep: no memory for a run's messages: ") + std::strerror(errno));
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child == 0) become(argv.data(), log, parent);
     const int failure = errno;
-    ::close(log);
-    if (child < 0) throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
-    children_.emplace(child, index);
+    if (child < 0) {
+      ::close(log);
+      throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
+    }
+    children_.emplace(child, Child{index, log});
   }
 
   /// Waits for one of them to end.
-  [[nodiscard]] std::pair<std::size_t, int> wait() {
+  [[nodiscard]] std::pair<std::size_t, ChildEnd> wait() {
     while (true) {
       int status = 0;
       const pid_t child = ::waitpid(-1, &status, 0);
@@ -80,44 +96,39 @@ class Running {
       if (child < 0) throw EnvironmentError(std::string("sweep: lost a run: ") + std::strerror(errno));
       const auto found = children_.find(child);
       if (found == children_.end()) continue;
-      const std::size_t index = found->second;
+      const auto [index, log] = found->second;
       children_.erase(found);
-      return {index, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)};
+      const std::string said = last_line(log);
+      ::close(log);
+      return {index, {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), said}};
     }
   }
 
  private:
-  std::map<pid_t, std::size_t> children_;
-};
+  struct Child {
+    std::size_t index = 0;
+    int log = -1;
+  };
 
-std::string last_line(const std::string& path) {
-  std::string text;
-  try {
-    text = read_text_file(path);
-  } catch (const InputError&) {
-    return "";
-  }
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
+  std::map<pid_t, Child> children_;
+};
 
 }  // namespace
 
 void run_children(std::size_t count, int jobs, const std::function<std::vector<std::string>(std::size_t)>& arguments,
-                  const std::function<std::string(std::size_t)>& log,
                   const std::function<void(std::size_t, const ChildEnd&)>& ended) {
   Running running;
   std::size_t next = 0;
   while (next < count || running.size() > 0) {
     check_interrupt();
     if (next < count && running.size() < static_cast<std::size_t>(std::max(jobs, 1))) {
-      running.start(next, arguments(next), log(next));
+      running.start(next, arguments(next));
       ++next;
       continue;
     }
-    const auto [index, code] = running.wait();
-    if (code == could_not_start) throw EnvironmentError("sweep: this program cannot start itself");
-    ended(index, {code, last_line(log(index))});
+    const auto [index, end] = running.wait();
+    if (end.code == could_not_start) throw EnvironmentError("sweep: this program cannot start itself");
+    ended(index, end);
   }
 }
 

@@ -185,7 +185,6 @@ void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, 
         }
         return arguments;
       },
-      [&](std::size_t i) { return folder.work() + "/" + groups[i].front()->key + ".log"; },
       [&](std::size_t i, const ChildEnd& end) {
         for (const SweepRun* run : groups[i]) keep(sweep, folder, *run, end);
         done += groups[i].size();
@@ -230,7 +229,6 @@ void make_pages(const Sweep& sweep, const std::vector<SweepRow>& rows, const Swe
             "run",     scenario,  "--seed", std::to_string(runs[i]->seed), "--out", folder.page(runs[i]->key),
             "--force", "--replay"};
       },
-      [&](std::size_t i) { return folder.work() + "/" + runs[i]->key + ".log"; },
       [&](std::size_t i, const ChildEnd& end) {
         constexpr int gate_failed = 1, scenario_failed = 4;
         if (end.code != 0 && end.code != gate_failed && end.code != scenario_failed)
