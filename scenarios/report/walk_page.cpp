@@ -143,6 +143,7 @@ class StoreyCard {
     page.lines.push_back(name_ + ": " + (refused.empty() ? walk_sentence(walk) : refused));
     for (const std::string& line : out_of_reach_lines(walk, most_lines))
       page.lines.push_back("  out of reach: " + line);
+    for (const std::string& line : left_out_lines(walk)) page.lines.push_back("  " + line);
     for (const std::string& warning : warnings) page.lines.push_back("  warning: " + warning);
     if (!refused.empty()) results.set("refused", refused);
     page.storeys.push(std::move(results));

@@ -339,14 +339,7 @@ std::vector<std::string> walk_notes(const ResolvedScenario& resolved) {
   }
   for (const std::string& warning : walk_warnings(walk)) notes.push_back("warning: " + warning);
   for (const std::string& line : out_of_reach_lines(walk, most_reasons)) notes.push_back("out of reach: " + line);
-  if (walk.at_edge > 0)
-    notes.push_back("passed at their edge only, where their most free floor is: " + std::to_string(walk.at_edge) +
-                    (walk.at_edge == 1 ? " room" : " rooms"));
-  if (walk.left_out.size() > walk.at_edge)
-    notes.push_back("left out: " + std::to_string(walk.left_out.size() - walk.at_edge) +
-                    " rooms in reach, since a default walk takes " + "at most " +
-                    format_number(default_longest_s / 60.0) +
-                    " minutes; a scenario with `route: {rooms: all}` and a longer `duration_s` walks them too");
+  for (std::string& line : left_out_lines(walk)) notes.push_back(std::move(line));
   return notes;
 }
 

@@ -278,6 +278,18 @@ std::vector<std::string> out_of_reach_lines(const WalkCoverage& walk, std::size_
   return lines;
 }
 
+std::vector<std::string> left_out_lines(const WalkCoverage& walk) {
+  std::vector<std::string> lines;
+  const auto rooms = [](std::size_t count) { return std::to_string(count) + (count == 1 ? " room" : " rooms"); };
+  if (walk.at_edge > 0)
+    lines.push_back("passed at their edge only, where their most free floor is: " + rooms(walk.at_edge));
+  if (walk.left_out.size() > walk.at_edge)
+    lines.push_back("left out: " + rooms(walk.left_out.size() - walk.at_edge) +
+                    " in reach, since a default walk takes at most " + format_number(default_longest_s / 60.0) +
+                    " minutes; a scenario with `route: {rooms: all}` and a longer `duration_s` walks them too");
+  return lines;
+}
+
 std::string walk_sentence(const WalkCoverage& walk) {
   std::string text = metres(walk.planned_m, 10.0);
   if (walk.rooms == 0) return text + " on " + walk.storey + ", where no rooms are known";

@@ -66,6 +66,9 @@ struct WalkCoverage {
 /// lines, then how many rooms more there are.
 [[nodiscard]] std::vector<std::string> out_of_reach_lines(const WalkCoverage& walk, std::size_t most);
 
+/// How many rooms in reach a default walk leaves out or only passes, and why.
+[[nodiscard]] std::vector<std::string> left_out_lines(const WalkCoverage& walk);
+
 /// "62.1 m through 5 of the 8 rooms on Level 1, of which 6 are in reach".
 [[nodiscard]] std::string walk_sentence(const WalkCoverage& walk);
 

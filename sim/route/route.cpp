@@ -114,6 +114,8 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
 std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
   struct Piece {
     std::size_t freest = 0;
+    double depth_m = 0.0;          // how far inside the room it lies, up to well inside
+    bool well_inside = true;       // to a cell
     std::ptrdiff_t here = 0;       // cells in the room
     std::ptrdiff_t elsewhere = 0;  // cells out of it
   };
@@ -124,6 +126,28 @@ std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const
     if (known != pieces.end() && clearance_[cell] <= clearance_[known->second.freest]) return;
     if (room.contains(grid_.center(cell))) pieces[regions()[cell]].freest = cell;
   });
+  const auto depth_m = [&](std::size_t cell) {
+    return std::min(room.boundary_distance(grid_.center(cell)), config_.inside_m);
+  };
+  bool at_edge = false;
+  for (auto& [region, piece] : pieces) {
+    piece.depth_m = depth_m(piece.freest);
+    piece.well_inside = piece.depth_m >= config_.inside_m - config_.cell_m;
+    at_edge = at_edge || !piece.well_inside;
+  }
+  // Where a side of a room is open, the freest place may lie on it.
+  if (at_edge)
+    for_cells_around(room, [&](std::size_t cell) {
+      if (!turnable(cell)) return;
+      const auto found = pieces.find(regions()[cell]);
+      if (found == pieces.end() || !room.contains(grid_.center(cell))) return;
+      Piece& piece = found->second;
+      if (piece.well_inside) return;
+      const double depth = depth_m(cell);
+      if (std::pair(depth, clearance_[cell]) <= std::pair(piece.depth_m, clearance_[piece.freest])) return;
+      piece.freest = cell;
+      piece.depth_m = depth;
+    });
   if (pieces.size() > 1) {
     for (const int region : regions())
       if (const auto found = pieces.find(region); found != pieces.end()) ++found->second.elsewhere;
