@@ -15,6 +15,7 @@
 #include "scenarios/host/terminal.h"
 #include "scenarios/localizability/planned_walk.h"
 #include "scenarios/report/localizability_page.h"
+#include "scenarios/spec/run_site.h"
 
 namespace plumbline::scenarios {
 
@@ -76,7 +77,7 @@ int identify(const IdentifyOptions& options) {
   }
   refuse_given(options.of_scenarios, "is of a scenario's walks; this is a building");
   const std::string page = page_path(options);
-  const RunBuilding building(bim::load_planned_and_built(options.building));
+  const RunBuilding building(load_site(options.building, Scenario()));  // as `run` has it
   BuildingMapOptions map_options = options.map;
   map_options.file = options.building;
   if (!options.storey.empty()) map_options.storey = options.storey;

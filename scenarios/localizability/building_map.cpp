@@ -93,6 +93,10 @@ class MapMaker {
  public:
   MapMaker(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by)
       : building_(building), options_(options), visible_(visible_building(building, by)) {
+    if (visible_.featureless)
+      throw InputError({options.file, 0, 0},
+                       "has no wall, column or other element that stays where it is and that a LiDAR sees; no pose in "
+                       "it is identifiable, and `identify` maps buildings that have some");
     input_.as_planned = &visible_.planned.scene;
     input_.as_built = &visible_.as_built().scene;
     input_.loose = visible_.loose;

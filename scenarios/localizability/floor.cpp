@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/localizability/floor.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,8 +11,10 @@
 
 #include "bim/errors.h"
 #include "bim/geometry/grid_frame.h"
+#include "bim/geometry/polygon_boolean.h"
 #include "bim/mesh/visible.h"
 #include "bim/model/permanence.h"
+#include "scenarios/localizability/constants.h"
 #include "scenarios/localizability/symmetric_images.h"
 #include "sim/route/route.h"
 
@@ -108,6 +111,10 @@ bool is_movable(const bim::Building& building, const bim::MeshElement& element) 
          bim::may_have_moved(building.obstacles[static_cast<std::size_t>(element.index)]);
 }
 
+bool is_assumed(const bim::Building& building, const bim::MeshElement& element) {
+  return element.kind == bim::ElementKind::slab && building.slabs[static_cast<std::size_t>(element.index)].assumed;
+}
+
 using IsLeftOut = std::function<bool(const bim::Obstacle& planned)>;
 
 /// What of the plan does not count in an answer.
@@ -150,17 +157,63 @@ std::map<std::string, const bim::Obstacle*> movables_of(const bim::Building& bui
   return found;
 }
 
-std::vector<char> loose_elements(const RunBuilding& building, PlanEvidence by) {
+/// A building and its mesh as the answers count them.
+struct Scanned {
+  bim::Building building;
+  bim::BuildingMesh mesh;
+};
+
+/// Assumed floors, and around those of each storey the same floor as far as a beam reaches: nobody knows where an
+/// assumed floor ends, and so its edges tell nothing of a pose.
+std::vector<bim::Slab> floors_without_edges(const bim::Building& as_built) {
+  std::map<int, std::vector<bim::Slab>> storeys;
+  for (const bim::Slab& slab : as_built.slabs)
+    if (slab.assumed) storeys[slab.storey].push_back(slab);
+  std::vector<bim::Slab> floors;
+  for (auto& [storey, assumed] : storeys) {
+    Eigen::AlignedBox2d box;
+    std::vector<Polygon2> outlines;
+    bim::Slab lowest = assumed.front();
+    for (const bim::Slab& slab : assumed) {
+      outlines.push_back(slab.polygon.outer);
+      for (const Eigen::Vector2d& p : slab.polygon.outer) box.extend(p);
+      if (slab.z1_m < lowest.z1_m) lowest = slab;
+    }
+    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(localizability_constants.range_max_m);
+    const Eigen::Vector2d low = box.min() - beyond, high = box.max() + beyond;
+    const Polygon2 all = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+    for (PolygonWithHoles2& piece : subtract(unite(std::vector<Polygon2>{all}), outlines)) {
+      bim::Slab around = lowest;
+      around.id += "/around/" + std::to_string(floors.size());
+      around.polygon = std::move(piece);
+      floors.push_back(std::move(around));
+    }
+    floors.insert(floors.end(), assumed.begin(), assumed.end());
+  }
+  return floors;
+}
+
+Scanned scanned(const bim::Building& building, const bim::BuildingMesh& mesh, const std::vector<bim::Slab>& floors) {
+  if (floors.empty()) return {building, mesh};
+  Scanned with_floors{building, {}};
+  std::vector<bim::Slab>& slabs = with_floors.building.slabs;
+  std::erase_if(slabs, [](const bim::Slab& slab) { return slab.assumed; });
+  slabs.insert(slabs.end(), floors.begin(), floors.end());
+  with_floors.mesh = bim::build_mesh(with_floors.building);
+  return with_floors;
+}
+
+std::vector<char> loose_elements(const RunBuilding& building, const Scanned& as_built, PlanEvidence by) {
   std::map<std::string, const bim::Obstacle*> counted;
   if (by != PlanEvidence::building) counted = movables_of(building.as_planned());
-  const bim::Building& as_built = building.as_built();
+  const std::vector<bim::Obstacle>& obstacles = as_built.building.obstacles;
   std::vector<char> loose;
-  for (const bim::MeshElement& element : building.mesh_as_built().elements) {
+  for (const bim::MeshElement& element : as_built.mesh.elements) {
     const auto planned = counted.find(element.id);
     const bool stands =
         planned != counted.end() && element.kind == bim::ElementKind::obstacle &&
-        planned->second->body.vertices == as_built.obstacles[static_cast<std::size_t>(element.index)].body.vertices;
-    loose.push_back(is_movable(as_built, element) && !stands ? 1 : 0);
+        planned->second->body.vertices == obstacles[static_cast<std::size_t>(element.index)].body.vertices;
+    loose.push_back(is_movable(as_built.building, element) && !stands ? 1 : 0);
   }
   return loose;
 }
@@ -168,17 +221,20 @@ std::vector<char> loose_elements(const RunBuilding& building, PlanEvidence by) {
 }  // namespace
 
 VisibleBuilding visible_building(const RunBuilding& building, PlanEvidence by) {
-  const bim::BuildingMesh planned = bim::visible_mesh(building.as_planned(), building.mesh_as_planned());
+  const std::vector<bim::Slab> floors = floors_without_edges(building.as_built());
+  const Scanned as_planned = scanned(building.as_planned(), building.mesh_as_planned(), floors);
+  const bim::BuildingMesh planned = bim::visible_mesh(as_planned.building, as_planned.mesh);
   const IsLeftOut is_left_out = left_out(building, by);
   bim::Building counted = building.as_planned();
   const bool leaves_out = std::erase_if(counted.obstacles, is_left_out) > 0;
-  VisibleBuilding visible{visible_scene(leaves_out ? without(is_left_out, building.as_planned(), planned) : planned),
-                          std::nullopt,
-                          {},
-                          storey_isometries(counted)};
+  const bim::BuildingMesh seen = leaves_out ? without(is_left_out, as_planned.building, planned) : planned;
+  VisibleBuilding visible{visible_scene(seen), std::nullopt, {}, storey_isometries(counted), true};
+  for (const bim::MeshElement& element : seen.elements)
+    if (element.triangle_count > 0 && !is_assumed(as_planned.building, element)) visible.featureless = false;
   if (!building.deviates() && !leaves_out) return visible;
-  visible.built.emplace(visible_scene(bim::visible_mesh(building.as_built(), building.mesh_as_built())));
-  visible.loose = loose_elements(building, by);
+  const Scanned as_built = scanned(building.as_built(), building.mesh_as_built(), floors);
+  visible.built.emplace(visible_scene(bim::visible_mesh(as_built.building, as_built.mesh)));
+  visible.loose = loose_elements(building, as_built, by);
   return visible;
 }
 

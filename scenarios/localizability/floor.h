@@ -31,6 +31,7 @@ struct VisibleBuilding {
   std::optional<VisibleScene> built;  ///< absent where it is the same
   std::vector<char> loose;            ///< by element as built: it may have moved and does not stand as planned
   std::vector<Pose> isometries;       ///< storey_isometries() of what counts of the plan
+  bool featureless = false;           ///< nothing that counts of the plan is seen, but floors that are assumed
 
   [[nodiscard]] const VisibleScene& as_built() const { return built ? *built : planned; }
 };

@@ -8,6 +8,7 @@
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/model/extrude.h"
+#include "bim/model/floors.h"
 #include "tests/input_error.h"
 
 namespace plumbline::scenarios {
@@ -49,6 +50,61 @@ TEST(BuildingMap, ARefusalNamesTheFile) {
   BuildingMapOptions options;
   options.file = "narrow.ifc";
   EXPECT_EQ(refusal(room_of(0.6), options).find("narrow.ifc: has no place in its rooms"), 0U);
+}
+
+/// A building whose file has no slabs, so that its floor is assumed.
+bim::PlannedAndBuilt without_slabs(const bim::Building& hall) {
+  bim::PlannedAndBuilt site{hall, hall, {}, true};
+  for (bim::Building* building : {&site.as_planned, &site.as_built}) building->slabs.clear();
+  site.as_built.slabs = bim::assumed_slabs(site.as_built);
+  return site;
+}
+
+bim::Building square_hall() {
+  return bim::read_plan_text(
+      "plan: 1\nstoreys: [{id: g}]\nwalls:\n  - {id: s, storey: g, a: [0, 0], b: [16, 0]}\n"
+      "  - {id: e, storey: g, a: [16, 0], b: [16, 16]}\n  - {id: n, storey: g, a: [16, 16], b: [0, 16]}\n"
+      "  - {id: w, storey: g, a: [0, 16], b: [0, 0]}\n"
+      "rooms: [{id: r, storey: g, polygon: [[0, 0], [16, 0], [16, 16], [0, 16]]}]\n",
+      "hall.plan.yaml");
+}
+
+TEST(BuildingMap, AnAssumedFloorTellsAsMuchAsASlab) {
+  const bim::Building hall = square_hall();
+  BuildingMapOptions options;
+  options.step_m = 4.0;
+  const BuildingMap with_slab = map_of(RunBuilding({hall, hall, {}, true}), options);
+  const BuildingMap without = map_of(RunBuilding(without_slabs(hall)), options);
+  ASSERT_EQ(without.map.cells.size(), with_slab.map.cells.size());
+  for (std::size_t i = 0; i < without.map.cells.size(); ++i) {
+    EXPECT_EQ(without.map.cells[i].unknown->aliases, with_slab.map.cells[i].unknown->aliases);
+    EXPECT_FALSE(without.map.cells[i].unknown->walk_m.has_value()) << without.map.cells[i].p_W.transpose();
+  }
+}
+
+TEST(BuildingMap, TheEdgeOfAnAssumedFloorTellsNothing) {
+  bim::Building hall = square_hall();
+  hall.walls.resize(1);  // its outline is open on three sides
+  hall.rooms.front().walls.clear();
+  const RunBuilding building(without_slabs(hall));
+  const VisibleBuilding visible = visible_building(building);
+  const double z = 0.5;
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(8, 8, z), Eigen::Vector3d(8, 15.5, z)})
+    EXPECT_NEAR(visible.as_built().scene.cast({p, Eigen::Vector3d(0, 0.8, -0.6), 0.0}, 100.0).range_m, z / 0.6, 1e-6)
+        << "the floor ends at 16 m";
+}
+
+TEST(BuildingMap, ABuildingWithNothingToSeeIsRefused) {
+  bim::Building rooms = square_hall();
+  rooms.walls.clear();
+  rooms.rooms.front().walls.clear();
+  BuildingMapOptions options;
+  options.file = "rooms.ifc";
+  const RunBuilding building(without_slabs(rooms));
+  EXPECT_EQ(input_error([&] {
+              static_cast<void>(map_of(building, options));
+            }).find("rooms.ifc: has no wall, column or other element that stays where it is"),
+            0U);
 }
 
 /// The straight rectangle of a wall around the whole room covers it; its body does not.
