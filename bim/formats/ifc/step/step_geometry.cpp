@@ -13,8 +13,10 @@
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcPolygonalBoundedHalfSpace.h>
 #include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
+#include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcRevolvedAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
+#include <ifcpp/IFC4/include/IfcSphere.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
@@ -150,12 +152,23 @@ struct StepGeometry::Impl {
     if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {
       return convert_half_space(*half_space, X, {}, shapes);
     } else if (const auto primitive = std::dynamic_pointer_cast<IfcCsgPrimitive3D>(item)) {
-      solids->convertIfcCsgPrimitive3D(primitive, data);
+      solids->convertIfcCsgPrimitive3D(in_metres(primitive), data);
     } else {
       converter.convertIfcGeometricRepresentationItem(item, data);
       if (const auto revolved = std::dynamic_pointer_cast<IfcRevolvedAreaSolid>(item)) revolve_finely(revolved, *data);
     }
     add(facets_of(*data), *item, X, shapes);
+  }
+
+  /// IFC++ takes the radius of a sphere for metres, whatever the file's unit.
+  [[nodiscard]] std::shared_ptr<IfcCsgPrimitive3D> in_metres(
+      const std::shared_ptr<IfcCsgPrimitive3D>& primitive) const {
+    const auto sphere = std::dynamic_pointer_cast<IfcSphere>(primitive);
+    if (!sphere || !sphere->m_Radius) return primitive;
+    const auto scaled = std::make_shared<IfcSphere>();
+    scaled->m_Position = sphere->m_Position;
+    scaled->m_Radius = std::make_shared<IfcPositiveLengthMeasure>(unit_m * sphere->m_Radius->m_value);
+    return scaled;
   }
 
   /// Again with as many corners as its radius asks for: IFC++ turns by steps of one angle whatever the radius.

@@ -20,7 +20,8 @@ using Kind = StepValue::Kind;
 
 constexpr std::string_view operator_type = "IFCCARTESIANTRANSFORMATIONOPERATOR",
                            extrusion_type = "IFCEXTRUDEDAREASOLID", composite_type = "IFCCOMPOSITEPROFILEDEF",
-                           mirrored_type = "IFCMIRROREDPROFILEDEF", girder_type = "IFCASYMMETRICISHAPEPROFILEDEF";
+                           mirrored_type = "IFCMIRROREDPROFILEDEF", girder_type = "IFCASYMMETRICISHAPEPROFILEDEF",
+                           block_type = "IFCBLOCK", pyramid_type = "IFCRECTANGULARPYRAMID";
 constexpr std::array<std::string_view, 4> swept_types{
     extrusion_type, "IFCREVOLVEDAREASOLID", "IFCFIXEDREFERENCESWEPTAREASOLID", "IFCSURFACECURVESWEPTAREASOLID"};
 
@@ -71,6 +72,8 @@ class PlainShapes {
       take_mirrored(entity);
     } else if (entity.type == girder_type) {
       take_girder(entity);
+    } else if (entity.type == block_type || entity.type == pyramid_type) {
+      take_cornered(entity);
     } else if (entity.type.starts_with(extrusion_type) ||
                std::find(swept_types.begin(), swept_types.end(), entity.type) != swept_types.end()) {
       take_swept(entity);
@@ -169,6 +172,28 @@ class PlainShapes {
     edits_.replace(entity, "IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$," + line + ")");
   }
 
+  /// Their placement is a corner [iso2018, IfcBlock]; for IFC++ it is the middle, and a pyramid is half as high.
+  void take_cornered(const StepEntities::Entity& entity) {
+    const StepValue values = entities_.attributes(entity);
+    const StepValue place = entities_.attributes(values.at(0), "IFCAXIS2PLACEMENT3D");
+    std::array<std::optional<Eigen::Vector3d>, 3> given;
+    if (place.at(1).kind == Kind::reference) given[2] = direction_of(place.at(1));
+    if (place.at(2).kind == Kind::reference) given[0] = direction_of(place.at(2));
+    const std::optional<Eigen::Matrix3d> axes = base_axes(given, false);
+    if (!axes) return;
+    const bool block = entity.type == block_type;
+    const Eigen::Vector3d size(values.at(1).as_number(), values.at(2).as_number(), values.at(3).as_number());
+    const Eigen::Vector3d half(0.5 * size.x(), 0.5 * size.y(), block ? 0.5 * size.z() : 0.0);
+    const Eigen::Vector3d middle = cartesian_point(entities_, place.at(0)) + *axes * half;
+    const std::string point = edits_.add("IFCCARTESIANPOINT((" + StepEdits::real(middle.x()) + "," +
+                                         StepEdits::real(middle.y()) + "," + StepEdits::real(middle.z()) + "))");
+    const std::string z = direction(axes->col(2), false), x = direction(axes->col(0), false);
+    std::vector<std::string> arguments = arguments_of(values);
+    arguments[0] = edits_.add("IFCAXIS2PLACEMENT3D(" + point + "," + z + "," + x + ")");
+    if (!block) arguments[3] = StepEdits::real(2.0 * size.z());
+    edits_.replace(entity, joined(entity, arguments));
+  }
+
   /// The profiles that a composite one consists of; false where they are too many.
   bool collect_parts(const StepValue& profile, std::vector<std::string>& parts, int depth = 0) {
     constexpr int most_deep = 16;
@@ -236,8 +261,8 @@ class PlainShapes {
 }  // namespace
 
 std::string with_plain_shapes(const std::string& text, const std::string& file) {
-  constexpr std::array<std::string_view, 5> types{operator_type, extrusion_type, composite_type, mirrored_type,
-                                                  girder_type};
+  constexpr std::array<std::string_view, 7> types{operator_type, extrusion_type, composite_type, mirrored_type,
+                                                  girder_type,   block_type,     pyramid_type};
   const bool any =
       std::any_of(types.begin(), types.end(), [&](std::string_view t) { return text.find(t) != std::string::npos; });
   return any ? PlainShapes(text, file).read() : text;

@@ -56,6 +56,39 @@ TEST(Extrusions, AreAsDeepAsTheySayWhateverTheirDirectionsLength) {
   EXPECT_NEAR(body.box().max().y(), 3.5, 1e-6);
 }
 
+TEST(Primitives, BlocksAndPyramidsStandWithACornerAtTheirPlace) {
+  for (const char* schema : {"IFC4", "IFC2X3"}) {
+    Sketch sketch;
+    sketch.schema = schema;
+    const StepBody block = body_of(sketch, sketch.add("IFCBLOCK(" + sketch.frame(1, 2, 3) + ",2.,1.,4.)"));
+    EXPECT_NEAR((block.box().min() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-6) << schema;
+    EXPECT_NEAR((block.box().max() - Eigen::Vector3d(3, 3, 7)).norm(), 0.0, 1e-6) << schema;
+    Sketch other;
+    other.schema = schema;
+    const StepBody pyramid = body_of(other, other.add("IFCRECTANGULARPYRAMID(" + other.frame(1, 2, 3) + ",2.,1.,3.)"));
+    EXPECT_NEAR((pyramid.box().min() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-6) << schema;
+    EXPECT_NEAR((pyramid.box().max() - Eigen::Vector3d(3, 3, 6)).norm(), 0.0, 1e-6) << schema;
+    EXPECT_NEAR(pyramid.volume_m3(), 2.0, 1e-6);
+  }
+  Sketch turned;
+  const std::string place = turned.add("IFCAXIS2PLACEMENT3D(" + turned.point(1, 0, 0) + "," +
+                                       direction(turned, "0.,0.,2.") + "," + direction(turned, "0.,1.,0.") + ")");
+  const std::string block = turned.add("IFCBLOCK(" + place + ",2.,1.,4.)");
+  const StepBody body = body_of(turned, turned.add("IFCCSGSOLID(" + block + ")"));
+  EXPECT_NEAR((body.middle() - Eigen::Vector3d(0.5, 1, 2)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(body.volume_m3(), 8.0, 1e-6);
+}
+
+TEST(Primitives, SpheresAreInTheUnitOfTheFile) {
+  Sketch sketch;
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.add("IFCSPHERE(" + sketch.frame(0, 0, 0) + ",300.)")), "$,$");
+  std::string text = sketch.text();
+  const std::string metres = ".LENGTHUNIT.,$,";
+  text.replace(text.find(metres), metres.size(), ".LENGTHUNIT.,.MILLI.,");
+  const StepBody body = body_in(text);
+  EXPECT_NEAR(body.box().sizes().z(), 0.6, 1e-6);
+}
+
 TEST(Profiles, MirroredOnesAreMirrored) {
   Sketch sketch;
   const std::string outline = sketch.polyline({{1, 0}, {4, 0}, {4, 2}});
