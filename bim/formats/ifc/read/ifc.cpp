@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "bim/formats/ifc/read/double_elements.h"
 #include "bim/formats/ifc/read/interpret.h"
+#include "bim/formats/ifc/read/partial_storeys.h"
 #include "bim/formats/ifc/roundtrip/roundtrip_reader.h"
 #include "bim/formats/ifc/roundtrip/roundtrip_signature.h"
 #include "bim/formats/ifc/step/step_parse.h"
@@ -157,6 +158,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   checked.schema = schema_of_entities(clean, checked, file);
   StepModel model = read_step_model(clean, checked, file);
   leave_out_doubles(model);
+  join_partial_storeys(model);
 
   Interpreter interpreter(model, config);
   interpreter.add_storeys();

@@ -56,6 +56,26 @@ TEST(Levels, ALevelWithoutBuildingPartsIsLeftOut) {
   EXPECT_EQ(with.obstacles.front().storey, 0) << "it stands on the storey below";
 }
 
+TEST(Levels, APartOfAStoreyAtItsHeightIsThatStorey) {
+  for (const double part_m : {0.0, 1.6}) {
+    Sketch sketch;
+    const std::string whole = sketch.storey(0);
+    add_house(sketch, 0, 0, 2.8);
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, part_m) + ")");
+    const std::string part =
+        sketch.rooted("IFCBUILDINGSTOREY", "'part',$,$," + at + ",$,$,.PARTIAL.," + Sketch::n(part_m));
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + whole + ",(" + part + ")");
+    add_room_at(sketch, part, {{0.1, 0.1}, {2.9, 0.1}, {2.9, 5.9}, {0.1, 5.9}}, part_m);
+    const Building building = read(sketch);
+    EXPECT_EQ(building.storeys.size(), part_m > 0.0 ? 2u : 1u);
+    EXPECT_EQ(count(building, "left_out"), part_m > 0.0 ? 0 : 1);
+    ASSERT_EQ(building.rooms.size(), 1u);
+    EXPECT_EQ(building.rooms.front().storey, part_m > 0.0 ? 1 : 0);
+    EXPECT_EQ(count(building, "no_floor"), part_m > 0.0 ? 1 : 0);
+    EXPECT_EQ(building.storeys.front().kind, StoreyKind::habitable);
+  }
+}
+
 TEST(Levels, AFileOfEmptyLevelsKeepsThem) {
   Sketch sketch;
   sketch.storey(0);
