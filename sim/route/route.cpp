@@ -16,6 +16,7 @@ namespace plumbline::sim {
 namespace {
 
 constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
+constexpr double edge_m = 0.1;              // a place less far inside a room lies on its outline, to two cells
 constexpr double thin_m = 2.0;              // walls within so little stand on one side of the floor
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
@@ -114,8 +115,8 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
 std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
   struct Piece {
     std::size_t freest = 0;
-    double depth_m = 0.0;          // how far inside the room it lies, up to well inside
-    bool well_inside = true;       // to a cell
+    double depth_m = 0.0;  // how far inside the room it lies, up to well inside
+    bool well_inside = true;
     std::ptrdiff_t here = 0;       // cells in the room
     std::ptrdiff_t elsewhere = 0;  // cells out of it
   };
@@ -132,7 +133,7 @@ std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const
   bool at_edge = false;
   for (auto& [region, piece] : pieces) {
     piece.depth_m = depth_m(piece.freest);
-    piece.well_inside = piece.depth_m >= config_.inside_m - config_.cell_m;
+    piece.well_inside = piece.depth_m >= edge_m;
     at_edge = at_edge || !piece.well_inside;
   }
   // Where a side of a room is open, the freest place may lie on it.
