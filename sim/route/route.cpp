@@ -16,7 +16,6 @@ namespace plumbline::sim {
 namespace {
 
 constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
-constexpr double edge_m = 0.1;              // a place less far inside a room lies on its outline, to two cells
 constexpr double thin_m = 2.0;              // walls within so little stand on one side of the floor
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
@@ -115,8 +114,6 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
 std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
   struct Piece {
     std::size_t freest = 0;
-    double depth_m = 0.0;  // how far inside the room it lies, up to well inside
-    bool well_inside = true;
     std::ptrdiff_t here = 0;       // cells in the room
     std::ptrdiff_t elsewhere = 0;  // cells out of it
   };
@@ -127,28 +124,6 @@ std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const
     if (known != pieces.end() && clearance_[cell] <= clearance_[known->second.freest]) return;
     if (room.contains(grid_.center(cell))) pieces[regions()[cell]].freest = cell;
   });
-  const auto depth_m = [&](std::size_t cell) {
-    return std::min(room.boundary_distance(grid_.center(cell)), config_.inside_m);
-  };
-  bool at_edge = false;
-  for (auto& [region, piece] : pieces) {
-    piece.depth_m = depth_m(piece.freest);
-    piece.well_inside = piece.depth_m >= edge_m;
-    at_edge = at_edge || !piece.well_inside;
-  }
-  // Where a side of a room is open, the freest place may lie on it.
-  if (at_edge)
-    for_cells_around(room, [&](std::size_t cell) {
-      if (!turnable(cell)) return;
-      const auto found = pieces.find(regions()[cell]);
-      if (found == pieces.end() || !room.contains(grid_.center(cell))) return;
-      Piece& piece = found->second;
-      if (piece.well_inside) return;
-      const double depth = depth_m(cell);
-      if (std::pair(depth, clearance_[cell]) <= std::pair(piece.depth_m, clearance_[piece.freest])) return;
-      piece.freest = cell;
-      piece.depth_m = depth;
-    });
   if (pieces.size() > 1) {
     for (const int region : regions())
       if (const auto found = pieces.find(region); found != pieces.end()) ++found->second.elsewhere;

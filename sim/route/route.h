@@ -18,7 +18,6 @@ namespace plumbline::sim {
 struct RouteConfig {
   double radius_m = 0.35;  ///< of the robot seen from above while it walks
   double turn_m = 0.55;    ///< the same while it turns round: 1.0 m long from nose to knees and 0.4 m wide
-  double inside_m = 0.5;   ///< a place this far inside the outline of a room is well inside it
   double cell_m = 0.05;
   double band_low_m = 0.05;         ///< what ends below this above the floor is stepped over
   double band_high_m = 1.0;         ///< what begins above this is walked under
@@ -84,10 +83,9 @@ class ClearanceMap {
   /// Number of the piece of walkable floor that a point lies on: a path joins two points of a piece, none joins two
   /// pieces. -1 where the robot cannot be. Numbered from 0 in the order of the lowest cells.
   [[nodiscard]] int region(const Eigen::Vector2d& p) const;
-  /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell), where that lies
-  /// on an open side of the room, of those well inside it or of the innermost ones. None where the robot cannot turn
-  /// round: a robot that enters such a room cannot leave it. First comes a piece that leads out of the room, of such
-  /// the one with the most floor in it: the outline of a room around a shaft holds the shaft.
+  /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell), but none where
+  /// the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a piece that leads out
+  /// of the room, of such the one with the most floor in it: the outline of a room around a shaft holds the shaft.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.

@@ -256,20 +256,6 @@ TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   EXPECT_TRUE(ClearanceMap(building, 0).room_targets(building.rooms[0]).empty());
 }
 
-TEST(ClearanceMap, TargetsOfRoomsWithoutWallsBetweenThemLieWellInside) {
-  bim::Building building = empty_storey();
-  add_room(building, "west", rectangle({0.0, 0.0}, {4.0, 4.0}));
-  add_room(building, "east", rectangle({4.0, 0.0}, {8.0, 4.0}));
-  add_room(building, "strip", rectangle({0.0, 4.0}, {8.0, 4.8}));
-  const ClearanceMap space(building, 0);
-  for (const bim::Room& room : building.rooms) {
-    const std::vector<Eigen::Vector2d> targets = space.room_targets(room);
-    ASSERT_EQ(targets.size(), 1U) << room.id;
-    EXPECT_TRUE(room.contains(targets[0]));
-    EXPECT_GT(room.boundary_distance(targets[0]), room.id == "strip" ? 0.2 : 0.5 - 1e-9) << room.id;
-  }
-}
-
 TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   const bim::Building building = two_rooms();
   const bim::Room room = building.rooms[0];
