@@ -15,8 +15,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr double sample_m = 0.1;         ///< of the walk, for the rooms it enters
-constexpr double well_inside_m = 0.5;    ///< a room, as `rooms.visited` has it
+constexpr double sample_m = 0.1;  ///< of the walk, for the rooms it enters
+const double well_inside_m = sim::RouteConfig().inside_m;
 constexpr double short_m = 10.0;         ///< a shorter walk shows little
 constexpr double least_share_out = 0.1;  ///< of a room's walkable floor, for a word on it
 

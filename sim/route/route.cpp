@@ -16,6 +16,7 @@ namespace plumbline::sim {
 namespace {
 
 constexpr double margin_m = 1.0;            // around the rooms: their walls, and a step outside
+constexpr double on_outline_m = 0.1;        // a place less far inside a room lies on its outline, to two cells
 constexpr double thin_m = 2.0;              // walls within so little stand on one side of the floor
 constexpr double cells_max = 16'777'216.0;  // 2^24, 200 m x 200 m of 5 cm cells
 
@@ -111,9 +112,24 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
   return best;
 }
 
+std::size_t ClearanceMap::well_inside(const bim::Room& room, std::size_t freest) const {
+  const auto depth_m = [&](std::size_t cell) { return room.boundary_distance(grid_.center(cell)); };
+  if (depth_m(freest) >= on_outline_m) return freest;
+  std::size_t best = freest;
+  double best_depth_m = 0.0;  // up to well inside
+  for_cells_around(room, [&](std::size_t cell) {
+    if (!turnable(cell) || regions()[cell] != regions()[freest] || !room.contains(grid_.center(cell))) return;
+    const double depth = std::min(depth_m(cell), config_.inside_m);
+    if (std::pair(depth, clearance_[cell]) <= std::pair(best_depth_m, clearance_[best])) return;
+    best = cell;
+    best_depth_m = depth;
+  });
+  return clearance_[best] >= std::min<double>(clearance_[freest], config_.comfort_m) ? best : freest;
+}
+
 std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
   struct Piece {
-    std::size_t freest = 0;
+    std::size_t place = 0;
     std::ptrdiff_t here = 0;       // cells in the room
     std::ptrdiff_t elsewhere = 0;  // cells out of it
   };
@@ -121,9 +137,10 @@ std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const
   for_cells_around(room, [&](std::size_t cell) {
     if (!turnable(cell)) return;
     const auto known = pieces.find(regions()[cell]);
-    if (known != pieces.end() && clearance_[cell] <= clearance_[known->second.freest]) return;
-    if (room.contains(grid_.center(cell))) pieces[regions()[cell]].freest = cell;
+    if (known != pieces.end() && clearance_[cell] <= clearance_[known->second.place]) return;
+    if (room.contains(grid_.center(cell))) pieces[regions()[cell]].place = cell;
   });
+  for (auto& [region, piece] : pieces) piece.place = well_inside(room, piece.place);
   if (pieces.size() > 1) {
     for (const int region : regions())
       if (const auto found = pieces.find(region); found != pieces.end()) ++found->second.elsewhere;
@@ -140,7 +157,7 @@ std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const
     return std::pair(a.elsewhere > 0, a.here) > std::pair(b.elsewhere > 0, b.here);
   });
   std::vector<std::size_t> cells;
-  for (const Piece& piece : order) cells.push_back(piece.freest);
+  for (const Piece& piece : order) cells.push_back(piece.place);
   return cells;
 }
 

@@ -18,6 +18,7 @@ namespace plumbline::sim {
 struct RouteConfig {
   double radius_m = 0.35;  ///< of the robot seen from above while it walks
   double turn_m = 0.55;    ///< the same while it turns round: 1.0 m long from nose to knees and 0.4 m wide
+  double inside_m = 0.5;   ///< a place this far inside a room is well inside it, as `rooms.visited` has it
   double cell_m = 0.05;
   double band_low_m = 0.05;         ///< what ends below this above the floor is stepped over
   double band_high_m = 1.0;         ///< what begins above this is walked under
@@ -83,9 +84,11 @@ class ClearanceMap {
   /// Number of the piece of walkable floor that a point lies on: a path joins two points of a piece, none joins two
   /// pieces. -1 where the robot cannot be. Numbered from 0 in the order of the lowest cells.
   [[nodiscard]] int region(const Eigen::Vector2d& p) const;
-  /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell), but none where
-  /// the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a piece that leads out
-  /// of the room, of such the one with the most floor in it: the outline of a room around a shaft holds the shaft.
+  /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell). Where that lies
+  /// on an open side of the room, the freest of the innermost ones, if that has as much clearance or is comfortable.
+  /// None where the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a piece that
+  /// leads out of the room, of such the one with the most floor in it: the outline of a room around a shaft holds the
+  /// shaft.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.
@@ -111,6 +114,8 @@ class ClearanceMap {
   template <class Use>
   void for_cells_around(const bim::Room& room, const Use& use) const;
   [[nodiscard]] std::vector<std::size_t> target_cells(const bim::Room& room) const;
+  /// The place in a room for the freest one of a piece of floor, which may lie on an open side.
+  [[nodiscard]] std::size_t well_inside(const bim::Room& room, std::size_t freest) const;
   /// Removes floor that is enclosed by hollow obstacles, such as the inside of a cupboard.
   void close_pockets(const std::vector<Polygon2>& hollow_obstacles);
   /// Cells that can be walked to from this one, in the order found; marks them.

@@ -46,6 +46,19 @@ TEST(WalkCoverage, AWalkThroughAllRoomsHasNothingToSay) {
   EXPECT_TRUE(walk_warnings(walk).empty());
 }
 
+TEST(WalkCoverage, RoomsWithoutWallsBetweenThemAreAllEntered) {
+  bim::Building building = sim::empty_storey();
+  for (int i = 0; i < 5; ++i)
+    for (const double y : {0.0, 6.0})
+      sim::add_room(building, "r" + std::to_string(i) + (y > 0.0 ? "n" : "s"),
+                    sim::rectangle({4.0 * i, y}, {4.0 * i + 4.0, y + 4.0}));
+  sim::add_room(building, "corridor", sim::rectangle({0, 4}, {20, 6}));
+  const WalkCoverage walk = coverage_of(building);
+  EXPECT_EQ(walk.in_reach, 11);
+  EXPECT_EQ(walk.on_route, 11);
+  EXPECT_TRUE(left_out_lines(walk).empty());
+}
+
 TEST(WalkCoverage, RoomsThatADefaultWalkHasNoTimeForAreCounted) {
   const WalkCoverage walk = coverage_of(row_of_rooms(7), 15.0);
   ASSERT_LT(walk.on_route, 7);

@@ -256,6 +256,32 @@ TEST(ClearanceMap, TargetOfARoomIsItsFreestPoint) {
   EXPECT_TRUE(ClearanceMap(building, 0).room_targets(building.rooms[0]).empty());
 }
 
+TEST(ClearanceMap, TargetsOfRoomsWithoutWallsBetweenThemLieWellInside) {
+  bim::Building building = empty_storey();
+  add_room(building, "west", rectangle({0.0, 0.0}, {4.0, 4.0}));
+  add_room(building, "east", rectangle({4.0, 0.0}, {8.0, 4.0}));
+  add_room(building, "strip", rectangle({0.0, 4.0}, {8.0, 4.8}));
+  add_room(building, "north", rectangle({0.0, 4.8}, {8.0, 8.8}));
+  const ClearanceMap space(building, 0);
+  for (const bim::Room& room : building.rooms) {
+    const std::vector<Eigen::Vector2d> targets = space.room_targets(room);
+    ASSERT_EQ(targets.size(), 1U) << room.id;
+    EXPECT_TRUE(room.contains(targets[0]));
+    EXPECT_GT(room.boundary_distance(targets[0]), room.id == "strip" ? 0.2 : 0.5 - 1e-9) << room.id;
+  }
+}
+
+TEST(ClearanceMap, APlaceWellInsideIsNotTakenWhereItIsTight) {
+  bim::Building building = empty_storey();
+  add_room(building, "hall", rectangle({0.0, 0.0}, {8.0, 4.0}));
+  add_room(building, "nook", rectangle({2.0, 4.0}, {4.0, 5.2}));
+  add_wall(building, {0.0, 5.3}, {8.0, 5.3});
+  const ClearanceMap space(building, 0);
+  const std::vector<Eigen::Vector2d> targets = space.room_targets(building.rooms[1]);
+  ASSERT_EQ(targets.size(), 1U);
+  EXPECT_LT(building.rooms[1].boundary_distance(targets[0]), 0.1);
+}
+
 TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   const bim::Building building = two_rooms();
   const bim::Room room = building.rooms[0];
