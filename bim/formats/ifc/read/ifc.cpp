@@ -103,18 +103,20 @@ void check_substance(const Building& building, const StepModel& model, const std
 }
 
 /// What methods that localize see in a plan without walls is all that was built to stay.
-void warn_of_missing_walls(Building& building) {
+void warn_of_missing_walls(const StepModel& model, Building& building) {
   if (!building.walls.empty()) return;
+  const bool unread = std::any_of(model.products.begin(), model.products.end(),
+                                  [](const StepProduct& product) { return product.kind == StepClass::wall; });
+  const std::string none = unread ? "the file has no IfcWall that can be read" : "the file has no IfcWall";
   const auto others = std::count_if(building.obstacles.begin(), building.obstacles.end(),
                                     [](const Obstacle& obstacle) { return !may_have_moved(obstacle); }) +
                       static_cast<std::ptrdiff_t>(building.columns.size());
   building.warnings.push_back(
       {"", "no_walls",
-       others > 0
-           ? "the file has no IfcWall; methods that localize go by its other elements that stay where they are (" +
-                 std::to_string(others) + "), and `walls.*` are not scored"
-           : "the file has no IfcWall, nor any other element that stays where it is; methods that localize have "
-             "nothing to go by"});
+       others > 0 ? none + "; methods that localize go by its other elements that stay where they are (" +
+                        std::to_string(others) + "), and `walls.*` are not scored"
+                  : none + ", nor any other element that stays where it is; methods that localize have "
+                           "nothing to go by"});
 }
 
 void warn_of_missing_floors(Building& building) {
@@ -178,7 +180,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.schema = said;
   building.unit = unit_name(model.unit_m);
   check_substance(building, model, file);
-  warn_of_missing_walls(building);
+  warn_of_missing_walls(model, building);
   if (const std::string odd = odd_size(building); !odd.empty())
     building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
   building.moved_by = model.move;

@@ -176,6 +176,14 @@ std::vector<Solid> Interpreter::uncut_solids(const StepProduct& product) {
   return solids;
 }
 
+Solid Interpreter::layers_of(const StepProduct& product) {
+  std::vector<Solid> solids;
+  for (const StepProduct* part : parts_.at(product.step_id))
+    for (Solid& solid : solids_of(*part)) solids.push_back(std::move(solid));
+  if (std::optional<Solid> one = one_of_layers(solids, config_.grid_m)) return std::move(*one);
+  return joined(solids);
+}
+
 Solid Interpreter::body_of(const StepProduct& product) {
   std::vector<Solid> solids = uncut_solids(product);
   if (solids.empty()) {

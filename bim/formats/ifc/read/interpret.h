@@ -52,6 +52,8 @@ class Interpreter {
   /// The same as one mesh, cut by the openings of the product and of what it is a part of. Empty where there is
   /// nothing, with a warning unless the product only groups others.
   [[nodiscard]] Solid body_of(const StepProduct& product);
+  /// The parts of a product as one mesh, uncut.
+  [[nodiscard]] Solid layers_of(const StepProduct& product);
   [[nodiscard]] std::vector<Solid> solids_of(const StepProduct& product);
 
   void assume_storeys();
@@ -60,6 +62,8 @@ class Interpreter {
   void move_storeys_to_their_floors();
   /// True for elements whose class does not say what they are for, with a body that is still free.
   [[nodiscard]] bool is_nameless(const StepProduct& product) const;
+  /// True for an element without body all of whose parts are layers with one, such as an assembly.
+  [[nodiscard]] bool is_of_layers(const StepProduct& product) const;
   void move_up(int storey, double floor_m);
   /// By height, with all that names one.
   void sort_storeys();
@@ -67,6 +71,8 @@ class Interpreter {
   void take_as_slab(const StepProduct& product);
   void read_reference_line(const StepProduct& product, const Solid& body, Wall& wall);
   void read_faces(const StepProduct& product, const Solid& body, Wall& wall);
+  /// Takes the body's longer extent for the reference line of a wall with a straight body that its axis contradicts.
+  [[nodiscard]] bool take_line_of_body(const StepProduct& product, Wall& wall);
   /// Adds a wall with its body; one whose body is bent, as its straight pieces.
   void add_straightened(const StepProduct& product, Wall wall);
   [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;

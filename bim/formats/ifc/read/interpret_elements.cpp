@@ -184,11 +184,22 @@ void Interpreter::add_slabs() {
 }
 
 bool Interpreter::is_nameless(const StepProduct& product) const {
-  if (product.kind != StepClass::obstacle || taken_.contains(product.step_id) || product.body.empty() ||
+  const StepProduct* whole = find(product.whole);
+  const bool part = product.kind == StepClass::part &&
+                    (whole == nullptr || whole->kind == StepClass::obstacle || whole->kind == StepClass::storey);
+  if ((product.kind != StepClass::obstacle && !part) || taken_.contains(product.step_id) || product.body.empty() ||
       within(product, StepClass::curtain_wall))
     return false;
   const std::string kind = obstacle_kind(product.type);
-  return kind == "proxy" || kind == "plate" || kind == "covering" || kind == "footing";
+  return part || kind == "proxy" || kind == "plate" || kind == "covering" || kind == "footing";
+}
+
+bool Interpreter::is_of_layers(const StepProduct& product) const {
+  const auto parts = parts_.find(product.step_id);
+  return product.kind == StepClass::obstacle && !product.has_body && parts != parts_.end() &&
+         !within(product, StepClass::curtain_wall) &&
+         std::all_of(parts->second.begin(), parts->second.end(),
+                     [](const StepProduct* part) { return part->kind == StepClass::part && part->has_body; });
 }
 
 /// A flat element that is level on top.

@@ -74,6 +74,7 @@ bool Interpreter::makes_storey(const StepProduct& product, bool lookalikes) cons
     case StepClass::curtain_wall:
       return true;
     case StepClass::obstacle:
+    case StepClass::part:
       break;
     default:
       return false;

@@ -161,12 +161,33 @@ void Interpreter::add_walls() {
   }
   if (!building_.walls.empty()) return;
   for (const StepProduct& product : model_.products)
+    if (is_of_layers(product)) take_as_wall(product);
+  for (const StepProduct& product : model_.products)
     if (is_nameless(product)) take_as_wall(product);
+}
+
+/// False where the body is not straight either.
+bool Interpreter::take_line_of_body(const StepProduct& product, Wall& wall) {
+  constexpr double least_straight = 0.95;
+  Wall along = wall;
+  const auto on_plan = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(snapped(p.x()), snapped(p.y())); };
+  const auto [a, b] = line_along(product, *wall.body);
+  along.a = on_plan(a);
+  along.b = on_plan(b);
+  if (along.length() < shortest_line_m) return false;
+  const Interval across = extent_across(WallFrame(along), {*wall.body});
+  along.offset_m = snapped(across.low);
+  along.thickness_m = snapped(across.length());
+  if (fill_of(along) < least_straight) return false;
+  wall = std::move(along);
+  warn(product, "no_axis", "its axis contradicts its body; the reference line is the body's longer extent on the plan");
+  return true;
 }
 
 void Interpreter::add_straightened(const StepProduct& product, Wall wall) {
   std::vector<Wall> pieces;
-  const bool bent = fill_of(wall) < config_.least_fill;
+  bool bent = fill_of(wall) < config_.least_fill;
+  if (bent && product.axis_W.size() == 2) bent = !take_line_of_body(product, wall);
   if (bent && product.axis_W.size() <= 2) pieces = pieces_of(wall, config_.grid_m);
   if (bent)
     warn(product, "bent_wall",
@@ -183,8 +204,8 @@ void Interpreter::add_straightened(const StepProduct& product, Wall wall) {
 void Interpreter::take_as_wall(const StepProduct& product) {
   const LookalikeConfig config;
   const std::string kind = obstacle_kind(product.type);
-  if (kind != "proxy" && kind != "plate") return;
-  Solid body = joined(uncut_solids(product));
+  if (kind != "proxy" && kind != "plate" && kind != "part" && !is_of_layers(product)) return;
+  Solid body = product.has_body ? joined(uncut_solids(product)) : layers_of(product);
   if (body.triangles.empty()) return;
   const Extent box = extent(body);
   if (box.high.z() - box.low.z() < config.least_height_m) return;
@@ -209,6 +230,8 @@ void Interpreter::take_as_wall(const StepProduct& product) {
   warn(product, "taken_as_wall", "the file has no IfcWall; this stands like one");
   wall.body = std::move(body);
   taken_.insert(product.step_id);
+  if (!product.has_body)
+    for (const StepProduct* part : parts_[product.step_id]) taken_.insert(part->step_id);
   walls_[product.step_id].push_back(static_cast<int>(building_.walls.size()));
   building_.walls.push_back(std::move(wall));
 }

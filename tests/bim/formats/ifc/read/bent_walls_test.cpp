@@ -279,5 +279,21 @@ TEST(BentWalls, ADoorInACurvedWallBehindAnotherOpensBoth) {
   EXPECT_NEAR(curved->volume_m3, whole - 1.2 * 2.2 * 0.2, 0.05) << "only where the door is";
 }
 
+// Such an axis was believed: the rectangle along it stood across the rooms and in the doors.
+TEST(BentWalls, AStraightBodyGoesBeforeAnAxisThatContradictsIt) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{-1, -1}, {9, -1}, {9, 5}, {-1, 5}}, -0.2, 0);
+  sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, 0, 0, 0.2, 4, 3), 1.0), "$,$");
+  sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.1, 0, 3, 0.1, 3), 8.0), "$,$");
+  const Building building = read(sketch);
+  ASSERT_EQ(building.walls.size(), 2u);
+  EXPECT_EQ(count(building, "bent_wall"), 0);
+  EXPECT_EQ(count(building, "no_axis"), 2);
+  EXPECT_NEAR(building.walls[0].length(), 4.0, 1e-6);
+  EXPECT_NEAR(building.walls[1].length(), 3.0, 1e-6);
+  for (const Wall& wall : building.walls) EXPECT_NEAR(wall.thickness_m, 0.2, 1e-6);
+}
+
 }  // namespace
 }  // namespace plumbline::bim

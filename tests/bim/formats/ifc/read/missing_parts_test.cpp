@@ -262,6 +262,50 @@ TEST(Sense, OneElementWithoutItIsLeftOut) {
   EXPECT_EQ(warnings_of(building, "no_global_id"), 2);
 }
 
+/// A wall of three layers as parts, which an assembly holds or nothing.
+void add_layers(Sketch& sketch, double x0, double y0, double x1, double y1, bool assembled) {
+  const bool along_x = x1 - x0 > y1 - y0;
+  std::string parts;
+  for (const auto& [low, high] : {std::pair(0.0, 0.4), std::pair(0.4, 0.6), std::pair(0.6, 1.0)}) {
+    const std::string layer = along_x ? sketch.box(x0, y0 + low * (y1 - y0), 0, x1, y0 + high * (y1 - y0), 3)
+                                      : sketch.box(x0 + low * (x1 - x0), y0, 0, x0 + high * (x1 - x0), y1, 3);
+    parts += (parts.empty() ? "" : ",") + sketch.element("IFCBUILDINGELEMENTPART", sketch.shape(layer), "$,$");
+  }
+  if (!assembled) return;
+  const std::string whole = sketch.element("IFCELEMENTASSEMBLY", "$", "$,.FACTORY.,.NOTDEFINED.");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + whole + ",(" + parts + ")");
+}
+
+TEST(Missing, WallsAreTakenFromLayersWithoutWall) {
+  for (const bool assembled : {true, false}) {
+    Sketch sketch;
+    sketch.storey(0);
+    sketch.slab({{0, 0}, {6, 0}, {6, 4}, {0, 4}}, -0.2, 0);
+    add_layers(sketch, 0, 0, 6, 0.2, assembled);
+    add_layers(sketch, 0, 3.8, 6, 4, assembled);
+    add_layers(sketch, 0, 0.2, 0.2, 3.8, assembled);
+    add_layers(sketch, 5.8, 0.2, 6, 3.8, assembled);
+    const Building building = read_sketch(sketch);
+    EXPECT_EQ(building.walls.size(), assembled ? 4u : 12u);
+    EXPECT_TRUE(building.obstacles.empty());
+    EXPECT_NEAR(inner_area(building), hut_area_m2, 1e-3);
+    if (!assembled) continue;
+    for (const Wall& wall : building.walls) EXPECT_NEAR(wall.thickness_m, 0.2, 1e-6);
+  }
+}
+
+TEST(Missing, WallsWithoutBodyAreNotSaidToBeNone) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {6, 0}, {6, 4}, {0, 4}}, -0.2, 0);
+  sketch.element("IFCWALL", "$", "$,$");
+  const Building building = read_sketch(sketch);
+  const auto warning = std::find_if(building.warnings.begin(), building.warnings.end(),
+                                    [](const Warning& w) { return w.kind == "no_walls"; });
+  ASSERT_NE(warning, building.warnings.end());
+  EXPECT_NE(warning->text.find("no IfcWall that can be read"), std::string::npos) << warning->text;
+}
+
 TEST(Schema, Ifc4x3ReadsWithItsNewClasses) {
   Sketch sketch = hut({.slab = "IFCBUILTELEMENT"});
   sketch.schema = "IFC4X3_ADD2";
