@@ -114,7 +114,8 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
 
 std::size_t ClearanceMap::well_inside(const bim::Room& room, std::size_t freest) const {
   const auto depth_m = [&](std::size_t cell) { return room.boundary_distance(grid_.center(cell)); };
-  if (depth_m(freest) >= on_outline_m) return freest;
+  // The open end of a corridor is a good place to walk through; without walls every side is open.
+  if (!room.walls.empty() || depth_m(freest) >= on_outline_m) return freest;
   std::size_t best = freest;
   double best_depth_m = 0.0;  // up to well inside
   for_cells_around(room, [&](std::size_t cell) {

@@ -114,7 +114,7 @@ class ClearanceMap {
   template <class Use>
   void for_cells_around(const bim::Room& room, const Use& use) const;
   [[nodiscard]] std::vector<std::size_t> target_cells(const bim::Room& room) const;
-  /// The place in a room for the freest one of a piece of floor, which may lie on an open side.
+  /// The place in a room for the freest one of a piece of floor, which may lie on the edge of one without walls.
   [[nodiscard]] std::size_t well_inside(const bim::Room& room, std::size_t freest) const;
   /// Removes floor that is enclosed by hollow obstacles, such as the inside of a cupboard.
   void close_pockets(const std::vector<Polygon2>& hollow_obstacles);

@@ -282,6 +282,17 @@ TEST(ClearanceMap, APlaceWellInsideIsNotTakenWhereItIsTight) {
   EXPECT_LT(building.rooms[1].boundary_distance(targets[0]), 0.1);
 }
 
+TEST(ClearanceMap, TheOpenEndOfARoomWithWallsIsAsGoodAPlaceAsAnyInIt) {
+  bim::Building building = empty_storey();
+  add_room(building, "hall", rectangle({0.0, 0.0}, {8.0, 4.0}));
+  add_room(building, "aisle", rectangle({3.0, 4.0}, {5.0, 8.0}));
+  building.rooms[1].walls = {add_wall(building, {2.9, 4.0}, {2.9, 8.0}), add_wall(building, {5.1, 4.0}, {5.1, 8.0})};
+  const ClearanceMap space(building, 0);
+  const std::vector<Eigen::Vector2d> targets = space.room_targets(building.rooms[1]);
+  ASSERT_EQ(targets.size(), 1U);
+  EXPECT_LT(building.rooms[1].boundary_distance(targets[0]), 0.1);
+}
+
 TEST(ClearanceMap, ARoomInWhichTheRobotCannotTurnIsNoTarget) {
   const bim::Building building = two_rooms();
   const bim::Room room = building.rooms[0];
