@@ -85,10 +85,10 @@ class ClearanceMap {
   /// pieces. -1 where the robot cannot be. Numbered from 0 in the order of the lowest cells.
   [[nodiscard]] int region(const Eigen::Vector2d& p) const;
   /// Of each piece of walkable floor in a room the point with the most clearance (ties: lowest cell). Where that lies
-  /// on an open side of the room, the freest of the innermost ones, if that has as much clearance or is comfortable.
-  /// None where the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a piece that
-  /// leads out of the room, of such the one with the most floor in it: the outline of a room around a shaft holds the
-  /// shaft.
+  /// on the edge of a room without walls, the freest of the innermost ones, if that has as much clearance or enough for
+  /// comfort. None where the robot cannot turn round: a robot that enters such a room cannot leave it. First comes a
+  /// piece that leads out of the room, of such the one with the most floor in it: the outline of a room around a shaft
+  /// holds the shaft.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.
