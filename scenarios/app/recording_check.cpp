@@ -29,8 +29,7 @@ bool is_read(const std::string& name, const fs::path& folder) {
                                                           "imu.csv", "recording.yaml"};
   if (std::find(of_packets.begin(), of_packets.end(), name) != of_packets.end())
     return fs::exists(folder / "lidar.pcap");
-  if (!fs::exists(folder / name) || name == manifest_name || name == "truth.tum" || name.starts_with("building."))
-    return false;
+  if (!fs::exists(folder / name) || name == "truth.tum" || name.starts_with("building.")) return false;
   const bool is_bag = is_of(name, "recording.bag") || is_of(name, "recording.mcap") || is_of(name, "rosbag2");
   return !is_bag || !fs::exists(folder / "lidar.pcap");
 }
@@ -46,13 +45,13 @@ AlteredRecording altered_in_recording(const std::string& recording) {
   AlteredRecording altered{given.string(), {}};
   if (fs::is_directory(given, error) && has_manifest(given)) {
     for (const std::string& name : altered_files(given.string(), {}))
-      if (is_read(name, given)) altered.files.push_back(name);
+      if (name == manifest_name || is_read(name, given)) altered.files.push_back(name);
     return altered;
   }
   altered.folder = given.parent_path().string();
   if (!has_manifest(given.parent_path())) return altered;
   for (const std::string& name : altered_files(altered.folder, {}))
-    if (is_of(name, given.filename().string())) altered.files.push_back(name);
+    if (name == manifest_name || is_of(name, given.filename().string())) altered.files.push_back(name);
   return altered;
 }
 

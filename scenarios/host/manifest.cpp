@@ -49,26 +49,43 @@ std::vector<std::string> files_in(const std::string& directory) {
   return names;
 }
 
-Entries read_manifest(const std::string& directory) {
-  const std::string path = path_of(directory), text = read_text_file(path);
+struct Manifest {
+  Entries entries;
+  bool whole = false;  ///< whether its last line is its own digest
+};
+
+std::string last_line_of(const std::string& text) {
+  return std::string(manifest_name) + "," + Digest().add(std::string_view(text)).hex() + "\n";
+}
+
+Manifest read_manifest(const std::string& directory) {
+  const std::string path = path_of(directory);
+  std::string text = read_text_file(path);
   constexpr std::string_view head = "file,digest\n";
   if (!text.starts_with(head)) throw InputError({path, 1, 1}, "a manifest begins with 'file,digest'");
-  Entries entries;
+  Manifest manifest;
+  Entries& entries = manifest.entries;
   int line = 2;
   for (std::size_t at = head.size(); at < text.size(); ++line) {
     const std::size_t end = text.find('\n', at), comma = text.rfind(',', end);
     constexpr std::size_t digits = 16;
     if (end == std::string::npos || comma == std::string::npos || comma <= at || end - comma - 1 != digits)
       throw InputError({path, line, 1}, "a line must be the name of a file, a comma and 16 digits");
-    entries[text.substr(at, comma - at)] = text.substr(comma + 1, digits);
+    const std::string name = text.substr(at, comma - at);
+    if (name == manifest_name)
+      manifest.whole = end + 1 == text.size() && text.substr(at) == last_line_of(text.substr(0, at));
+    else
+      entries[name] = text.substr(comma + 1, digits);
     at = end + 1;
   }
-  return entries;
+  return manifest;
 }
 
-void write(const std::string& directory, const Entries& entries) {
+/// One that was altered stays so: it gets no line of its own.
+void write(const std::string& directory, const Manifest& manifest) {
   std::string text = "file,digest\n";
-  for (const auto& [name, digest] : entries) text.append(name).append(",").append(digest).append("\n");
+  for (const auto& [name, digest] : manifest.entries) text.append(name).append(",").append(digest).append("\n");
+  if (manifest.whole) text += last_line_of(text);
   write_file(path_of(directory), text);
 }
 
@@ -79,16 +96,17 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 void write_manifest(const std::string& directory) {
-  Entries entries;
-  for (const std::string& name : files_in(directory)) entries[name] = digest_of_file(directory + "/" + name);
-  write(directory, entries);
+  Manifest manifest{{}, true};
+  for (const std::string& name : files_in(directory)) manifest.entries[name] = digest_of_file(directory + "/" + name);
+  write(directory, manifest);
 }
 
 std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check) {
   if (!fs::exists(path_of(directory))) return {std::string(manifest_name)};
-  const Entries entries = read_manifest(directory);
+  const auto [entries, whole] = read_manifest(directory);
   const std::string of_recording = std::string(recording_folder) + "/";
   std::vector<std::string> altered;
+  if (!whole) altered.emplace_back(manifest_name);
   for (const auto& [name, digest] : entries) {
     if (is_among(check.written_anew, name) || (!check.recording && name.starts_with(of_recording))) continue;
     const std::string path = directory + "/" + name;
@@ -106,11 +124,14 @@ void refuse_altered(const std::string& directory, const std::vector<std::string>
   std::string names;
   for (std::size_t i = 0; i < std::min(altered.size(), most_named); ++i) names += (i == 0 ? "" : ", ") + altered[i];
   if (altered.size() > most_named) names += " and " + std::to_string(altered.size() - most_named) + " more";
-  const bool none = altered.front() == manifest_name;
+  const bool none = !fs::exists(path_of(directory));
   const auto missing = [&](const std::string& name) { return !fs::is_regular_file(directory + "/" + name); };
   const bool all = std::all_of(altered.begin(), altered.end(), missing);
   const bool any = std::any_of(altered.begin(), altered.end(), missing);
   const std::string what = all ? "missing: " : any ? "altered or missing: " : "altered since they were written: ";
+  const bool broken = !none && is_among(altered, std::string(manifest_name));
+  const std::string why =
+      broken ? " (a line of manifest.csv was changed or removed, or an earlier version wrote it)" : "";
   if (unchecked)
     print_note("plumbline: " + (none ? "there is no manifest.csv" : what + names) + "; taken as they are");
   else if (none)
@@ -118,18 +139,19 @@ void refuse_altered(const std::string& directory, const std::vector<std::string>
                      "has no manifest.csv, which says whether its files are as they were written; "
                      "--unchecked goes on without");
   else
-    throw InputError({directory, 0, 0}, what + names + "; run it again, or add --unchecked to take them as they are");
+    throw InputError({directory, 0, 0},
+                     what + names + why + "; run it again, or add --unchecked to take them as they are");
 }
 
 void renew_manifest(const std::string& directory, const std::vector<std::string>& names) {
   if (!fs::exists(path_of(directory))) return;
-  Entries entries = read_manifest(directory);
+  Manifest manifest = read_manifest(directory);
   for (const std::string& name : names) {
-    entries.erase(name);
+    manifest.entries.erase(name);
     const std::string path = directory + "/" + name;
-    if (is_listed(name) && fs::is_regular_file(path)) entries[name] = digest_of_file(path);
+    if (is_listed(name) && fs::is_regular_file(path)) manifest.entries[name] = digest_of_file(path);
   }
-  write(directory, entries);
+  write(directory, manifest);
 }
 
 }  // namespace plumbline::scenarios

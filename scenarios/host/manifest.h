@@ -8,7 +8,7 @@
 namespace plumbline::scenarios {
 
 /// manifest.csv: file,digest of every file of a directory of ours when it was written, so that what was altered later
-/// can be named. timings.json, which differs between repetitions, is left out.
+/// can be named; last its own, of the lines before. timings.json, which differs between repetitions, is left out.
 inline constexpr std::string_view manifest_name = "manifest.csv";
 
 /// Writes it for what `directory` holds now. Throws EnvironmentError.
@@ -20,7 +20,8 @@ struct ManifestCheck {
   bool recording = true;                  ///< whether the recording is compared, too, which may be large
 };
 /// Files that are not as they were written, are missing, or are of a method and were not there, in the order of their
-/// names; the manifest itself where there is none. Throws InputError on a manifest that is damaged.
+/// names; the manifest itself where there is none or a line of it was changed or removed. Throws InputError on a
+/// manifest that is damaged.
 [[nodiscard]] std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check);
 
 /// Throws InputError that names the altered files, unless `unchecked`: then says on stderr which they are.

@@ -195,6 +195,15 @@ TEST_F(ShortRun, AlteredFilesAreNamed) {
   fs::remove(copy + "/added.estimate.json");
   write_file(copy + "/results.json", "{}");
   refused("report", "written: results.json;");
+  // A row that is gone does not hide what was altered.
+  ASSERT_EQ(plumbline({"score", copy, "--unchecked"}).code, 0);
+  std::string manifest = read_file(copy + "/manifest.csv");
+  const std::size_t row = manifest.find("vgicp.tum,");
+  manifest.erase(row, manifest.find('\n', row) + 1 - row);
+  write_file(copy + "/manifest.csv", manifest);
+  for (const char* command : {"score", "report", "replay"}) refused(command, "written: manifest.csv (a line of");
+  EXPECT_EQ(plumbline({"score", copy, "--unchecked"}).code, 0);
+  refused("score", "written: manifest.csv (a line of");  // it stays so
   fs::remove(copy + "/manifest.csv");
   refused("score", "has no manifest.csv");
   EXPECT_EQ(plumbline({"score", copy, "--unchecked"}).code, 0);
