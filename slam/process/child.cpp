@@ -87,25 +87,44 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Running processes that descend from `root` or have the mark in their environment, and what descends from those.
-std::set<pid_t> with_descendants(pid_t root, const std::string& mark) {
+/// What the links of open descriptors say of this one: "pipe:[4711]".
+std::string link_of(const std::filesystem::path& descriptor) {
+  std::error_code error;
+  return std::filesystem::read_symlink(descriptor, error).string();
+}
+
+bool holds_any(const std::filesystem::path& process, const std::vector<std::string>& links) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(process / "fd", error), end; !error && at != end; at.increment(error))
+    if (std::find(links.begin(), links.end(), link_of(at->path())) != links.end()) return true;
+  return false;
+}
+
+/// Running processes that descend from `root`, are of its session, have the mark in their environment or hold one of
+/// the links, and what descends from those. Other children of this process may hold the links until they are programs.
+std::set<pid_t> with_descendants(pid_t root, pid_t session, const std::string& mark,
+                                 const std::vector<std::string>& links) {
+  const pid_t own = ::getpid();
   std::map<pid_t, pid_t> parents;
   std::set<pid_t> found;
   std::error_code error;
   for (std::filesystem::directory_iterator at("/proc", error), end; !error && at != end; at.increment(error)) {
     const pid_t process = static_cast<pid_t>(std::atoi(at->path().filename().c_str()));
-    if (process <= 0) continue;
-    const std::string status = text_of(at->path() / "stat");  // pid (name) state parent
+    if (process <= 0 || process == own) continue;
+    const std::string status = text_of(at->path() / "stat");  // pid (name) state parent group session
     const std::size_t name_end = status.rfind(')');
     char state = 'Z';
-    int parent = 0;
-    if (name_end == std::string::npos || std::sscanf(status.c_str() + name_end + 1, " %c %d", &state, &parent) != 2 ||
+    int parent = 0, group = 0, its_session = 0;
+    if (name_end == std::string::npos ||
+        std::sscanf(status.c_str() + name_end + 1, " %c %d %d %d", &state, &parent, &group, &its_session) != 4 ||
         state == 'Z')
       continue;
     parents[process] = parent;
     std::string environment(1, '\0');
     environment += text_of(at->path() / "environ");
-    if (process == root || environment.find('\0' + mark + '\0') != std::string::npos) found.insert(process);
+    if (process == root || its_session == session || environment.find('\0' + mark + '\0') != std::string::npos ||
+        (parent != own && holds_any(at->path(), links)))
+      found.insert(process);
   }
   for (bool more = true; more;) {
     more = false;
@@ -146,8 +165,10 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
     for (int* descriptor : {&stream_, &output_, &timer_}) close_if_open(*descriptor);
     throw;
   }
-  ::close(its_stream);
-  ::close(its_output);
+  for (const int descriptor : {its_stream, its_output}) {
+    links_.push_back(link_of("/proc/self/fd/" + std::to_string(descriptor)));
+    ::close(descriptor);
+  }
 }
 
 Child::~Child() {
@@ -163,7 +184,7 @@ void Child::kill_all() const {
   constexpr int tries = 100;
   std::set<pid_t> killed;
   for (int i = 0; i < tries; ++i) {
-    const std::set<pid_t> all = with_descendants(ended_ ? 0 : pid_, mark_);
+    const std::set<pid_t> all = with_descendants(ended_ ? 0 : pid_, ended_ ? -1 : pid_, mark_, links_);
     bool any = false;
     for (const pid_t process : all) any = killed.insert(process).second || any;
     for (const pid_t process : all) ::kill(process, SIGKILL);

@@ -19,8 +19,9 @@ class ProcessFailure : public std::runtime_error {
 };
 
 /// A child process and a stream to it, which is its file descriptor 3. Its standard input is empty; what it prints is
-/// kept, the last of it. It dies with this object, and all that it started with it, in whatever session: what has its
-/// environment, or descends from it. It dies with the thread that made it, too, so that a killed program leaves none.
+/// kept, the last of it. It dies with this object, and all that it started with it, in whatever session: what descends
+/// from it, is of its session, has its environment, or holds its stream or output open. What has given up all of these
+/// is not found. It dies with the thread that made it, too, so that a killed program leaves none.
 class Child {
  public:
   /// folder: its working directory. variables: NAME=VALUE, over those of this process. printed: gets what it prints, as
@@ -60,7 +61,8 @@ class Child {
   void kill_all() const;
   [[noreturn]] void fail_as_it_ended();
 
-  std::string mark_;  ///< in the environment of all that it starts
+  std::string mark_;                ///< in the environment of all that it starts
+  std::vector<std::string> links_;  ///< its stream and output, as /proc names them; no other program has them open
   pid_t pid_ = -1;
   int stream_ = -1, output_ = -1, timer_ = -1;
   double deadline_s_ = 0.0;

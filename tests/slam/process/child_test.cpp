@@ -5,10 +5,13 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <thread>
 
 #include "bim/config/utf8.h"
+#include "tests/folder.h"
 
 namespace plumbline::slam {
 namespace {
@@ -89,6 +92,26 @@ TEST(Child, ItsEndIsSeenWhateverItLeavesBehind) {
   });
   EXPECT_EQ(std::string(answer.data(), answer.size()), "now");
   EXPECT_LT(took, 20.0);
+}
+
+// A daemon in a session of its own, with another parent and environment, but with the stream or the output.
+TEST(Child, WhatHoldsItsStreamOrOutputDiesWithIt) {
+  const Folder folder;
+  for (const std::string kept : {"3>&-", ">/dev/null 2>&1"}) {
+    const std::string file = folder / "number";
+    {
+      Child child(shell("(env -i /usr/bin/setsid /bin/sh -c 'echo $$ >" + file + ".new; /bin/mv " + file + ".new " +
+                        file + "; exec /bin/sleep 100' " + kept + " &); exec sleep 100"),
+                  "", {});
+      while (!std::filesystem::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::string number;
+    std::ifstream(file) >> number;
+    std::string status;
+    std::getline(std::ifstream("/proc/" + number + "/stat"), status);
+    EXPECT_TRUE(status.empty() || status.find(") Z ") != std::string::npos) << status;
+    std::filesystem::remove(file);
+  }
 }
 
 TEST(Child, AMissingFolderIsNoMissingProgram) {
