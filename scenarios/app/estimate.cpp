@@ -215,6 +215,10 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
 std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) {
   std::vector<std::string> all;
   if (const auto gaps = answer.scan_gaps.warning()) all.push_back(*gaps);
+  if (2 * answer.scans.empty > answer.scans.count)
+    all.push_back(
+        std::to_string(answer.scans.empty) + " of " + std::to_string(answer.scans.count) +
+        " scans hold no return: their points are at the origin, farther than 1 km or no numbers, or there are none");
   if (!answer.record.crashed && answer.record.causal.empty())
     all.push_back("the method gave no pose at any of " + std::to_string(answer.scans.count) + " scans");
   if (!with_odometry) return all;

@@ -20,6 +20,10 @@ std::string list_of(const std::vector<std::string>& names) {
 
 void ScansRead::add(const slam::Scan& scan) {
   ++count;
+  if (std::none_of(scan.range_m.begin(), scan.range_m.end(), [](double range) { return range > 0.0; })) {
+    ++empty;
+    return;
+  }
   rings = std::max(rings, scan.rings);
   timed = timed || std::any_of(scan.offset_ns.begin(), scan.offset_ns.end(), [](auto ns) { return ns != 0; });
 }

@@ -13,8 +13,9 @@ namespace plumbline::scenarios {
 /// The scans that a method got.
 struct ScansRead {
   std::int64_t count = 0;
-  int rings = 0;       ///< the most
-  bool timed = false;  ///< returns have times of their own
+  std::int64_t empty = 0;  ///< scans without a return
+  int rings = 0;           ///< the most, of scans with returns
+  bool timed = false;      ///< returns have times of their own
 
   void add(const slam::Scan& scan);
 };

@@ -34,6 +34,16 @@ TEST_F(Recordings, AHarshWalkIsEstimatedAsItRan) {
   }
 }
 
+TEST_F(Recordings, ScansWithoutReturnsAreNamed) {
+  const std::string clouds = folder_ / "clouds";
+  fs::create_directory(clouds);
+  for (int i = 0; i < 5; ++i) write_file(clouds + "/" + std::to_string(i) + ".bin", std::string(1600, '\0'));
+  const Outcome outcome = plumbline({"estimate", clouds, "--method", "vgicp", "-o", folder_ / "nothing"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("5 of 5 scans hold no return"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("5 scans, no rings"), std::string::npos) << outcome.out;
+}
+
 TEST_F(Recordings, LidarAloneIsAnEstimateOfItsOwn) {
   write_file(folder_ / "both.yaml", read_file(input()) + "sensors: [all, lidar]\n");
   write_file(folder_ / "short.plan.yaml", read_file(plan()));

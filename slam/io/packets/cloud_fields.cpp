@@ -41,8 +41,10 @@ const PointField* find_field(const PointCloud& cloud, std::initializer_list<std:
 
 const PointField& need_field(const PointCloud& cloud, std::string_view name) {
   const PointField* field = find_field(cloud, {name});
-  if (field == nullptr) throw InputError({}, "point cloud without field '" + std::string(name) + "'");
-  return *field;
+  if (field != nullptr) return *field;
+  std::string others;
+  for (const PointField& other : cloud.fields) others += (others.empty() ? "; it has " : ", ") + other.name;
+  throw InputError({}, "point cloud without field '" + std::string(name) + "'" + others);
 }
 
 }  // namespace

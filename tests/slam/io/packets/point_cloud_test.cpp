@@ -190,6 +190,11 @@ TEST(PointCloud, AbsoluteAndRelativeTimesOfOtherTypes) {
 }
 
 /// Two points, a turn apart by the f64 field `timestamp`.
+TEST(PointCloud, WithoutCoordinatesItSaysWhatItHas) {
+  const PointCloud cloud = cloud_with({"X", "Y", "Z"}, {{1, 2, 3}});
+  EXPECT_EQ(input_error([&] { (void)read_scan(cloud); }), "point cloud without field 'x'; it has X, Y, Z");
+}
+
 PointCloud timed_cloud(double stamp_s, double first, double turn) {
   PointCloud cloud = cloud_with({"x", "y", "z", "ring", "low", "high"}, {{1, 0, 0, 0, 0, 0}, {1, 0, 0, 1, 0, 0}});
   cloud.fields.resize(4);
