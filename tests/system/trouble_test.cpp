@@ -50,6 +50,27 @@ TEST_F(Trouble, OutputThatIsFull) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+// A disk of its own, in a namespace where that needs no rights. It is full when the first run begins, in it, or after
+// it.
+TEST_F(Trouble, ASweepOnAFullDiskSaysSo) {
+  const std::string disk = folder_ / "disk", sweep = folder_ / "sweep.yaml";
+  fs::create_directory(disk);
+  write_file(sweep, "sweep: 1\nname: full\nscenarios: [" + input() + "]\nseeds: 2\nmethods: [truth]\n");
+  const auto with_disk = [&](const std::string& size) {
+    Setting setting;
+    setting.wrapper = {"unshare", "-Urm", "sh", "-c",
+                       "mount -t tmpfs -o size=" + size + " none '" + disk + "' && exec \"$0\" \"$@\""};
+    return setting;
+  };
+  if (plumbline({"methods"}, with_disk("1M")).code != 0) GTEST_SKIP() << "no disk can be mounted without rights here";
+  for (const char* size : {"4k", "8k", "16k"}) {
+    const Outcome outcome = plumbline({"sweep", sweep, "--out", disk + "/out"}, with_disk(size));
+    EXPECT_EQ(outcome.code, 3) << size << "\n" << outcome.out << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot be written: No space left on device\n"), std::string::npos) << size << "\n"
+                                                                                                   << outcome.err;
+  }
+}
+
 TEST_F(Trouble, InterruptsLeaveNothing) {
   EXPECT_EQ(interrupt(SIGINT).code, 130);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
