@@ -16,6 +16,7 @@
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/metrics.h"
+#include "scenarios/metrics/quaternion_order.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
@@ -56,6 +57,12 @@ TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std
     throw InputError({file, 0, 0}, "has fewer than " + std::to_string(score::ReferenceRules().least_matched) +
                                        " poses at times of the estimate; it is of " + span_of(reference) +
                                        ", the estimate of " + span_of(poses));
+  const slam::TrajectoryForm form = slam::trajectory_form(read_text_file(file));
+  const auto other = score::score_by_reference(slam::in_other_order(reference, form), poses);
+  if (const std::string why =
+          score::wrong_order(form, scores.reference->rpe_1m_rmse_m, other ? other->rpe_1m_rmse_m : std::nullopt);
+      !why.empty())
+    throw InputError({file, 0, 0}, why);
   return scores;
 }
 

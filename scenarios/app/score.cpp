@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,88 +10,20 @@
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
 #include "scenarios/app/estimate_score.h"
+#include "scenarios/app/outside_estimate.h"
 #include "scenarios/app/outside_gate.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
-#include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/ground_truth_recorder.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/spec/method_names.h"
 #include "slam/io/clouds/cloud_file.h"
-#include "slam/io/recordings/trajectory.h"
-#include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
 
 namespace {
-
-bool is_plain_name(const std::string& label) {
-  const std::string name = choice_of(label).method;
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
-}
-
-/// An estimate of another run of the same length would pass for a bad one.
-void check_walk(const std::string& dir, const std::string& run_dir, const FinishedRun& run) {
-  const std::string path = dir + "/estimate.yaml";
-  const Tree tree = read_yaml(read_text_file(path), path);
-  const Tree* walk = tree.find("walk");
-  if (walk != nullptr && walk->as_string() != sensor_digest_of(run.record.digests))
-    throw InputError(walk->mark, "the estimate is of another run's recording; give one of " + run_dir);
-}
-
-/// An estimate of another program or of plumbline estimate.
-struct Outside {
-  MethodRecord method;
-  std::vector<std::string> altered;  ///< files that are not as they were written, as "NAME=FILE"
-};
-
-/// What `plumbline estimate` left: planes, rooms and map beside the trajectories.
-Outside read_estimate_directory(const std::string& dir, const std::string& name, const std::string& run_dir,
-                                const FinishedRun& run, bool unchecked) {
-  const std::vector<std::string> methods = estimates_in(dir);
-  if (methods.size() != 1)
-    throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
-                                                  : "holds several estimates; give a directory of plumbline estimate");
-  const std::vector<std::string> altered =
-      altered_files(dir, {{"score.json", "report.html", "junit.xml", "results.json"}, false});
-  refuse_altered(dir, altered, unchecked);
-  if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, run_dir, run);
-  Outside outside{read_method(dir, methods.front()), {}};
-  outside.method.name = name;
-  for (const std::string& file : altered) outside.altered.push_back(name + "=" + file);
-  for (const std::string& file : unchecked_by_estimate(dir)) outside.altered.push_back(name + "=recording/" + file);
-  return outside;
-}
-
-/// NAME=DIR or NAME=FILE[,frame=W|M]
-Outside read_outside(const std::string& text, const std::string& run_dir, const FinishedRun& run, bool unchecked) {
-  const Mark mark{"--estimate", 0, 0};
-  const std::size_t equals = text.find('=');
-  std::string path = equals == std::string::npos ? "" : text.substr(equals + 1);
-  MethodRecord method;
-  method.name = text.substr(0, equals);
-  if (is_plain_name(method.name) && std::filesystem::is_directory(path))
-    return read_estimate_directory(path, method.name, run_dir, run, unchecked);
-  for (const auto& [end, world] : {std::pair{",frame=W", true}, std::pair{",frame=M", false}}) {
-    if (!path.ends_with(end)) continue;
-    path.resize(path.size() - std::string_view(end).size());
-    method.localization = world;
-    break;
-  }
-  if (const std::size_t frame = path.rfind(",frame="); frame != std::string::npos)
-    throw InputError(mark, "'" + path.substr(frame + 1) + "' must be frame=W, the plan's, or frame=M, its own");
-  if (!is_plain_name(method.name) || path.empty())
-    throw InputError(mark, "'" + text + "' must be NAME=FILE, NAME=FILE,frame=W or NAME=directory of estimate");
-  method.estimate.frame = method.localization ? slam::Frame::world : slam::Frame::map;
-  method.causal = slam::read_trajectory(read_text_file(path), path, run.scans);
-  if (method.causal.empty()) throw InputError({path, 0, 0}, "holds no pose");
-  return {std::move(method), {}};
-}
 
 /// What the scores that stand say of outside estimates which stay: their files are in the manifest of the run since.
 std::vector<std::string> altered_before(const std::string& dir, const FinishedRun& run) {
@@ -111,21 +42,6 @@ std::vector<std::string> altered_before(const std::string& dir, const FinishedRu
     for (const MethodRecord& method : run.record.methods)
       if (name.as_string().starts_with(method.name + "=")) before.push_back(name.as_string());
   return before;
-}
-
-/// A trajectory on another clock, the commonest mistake, would pass for a lost one.
-void check_stamps(const std::string& text, const MethodRecord& method, const FinishedRun& run) {
-  score::Truth truth;
-  truth.scans = run.scans;
-  truth.poses_W = run.record.truth_W;
-  if (method.causal.empty() || !score::associate(truth, method.causal, {}).empty()) return;
-  const auto span = [](slam::Nanoseconds first, slam::Nanoseconds last) {
-    return slam::format_stamp(first) + " to " + slam::format_stamp(last) + " s";
-  };
-  throw InputError({"--estimate", 0, 0}, "'" + text +
-                                             "' has a pose within 0.01 s of none of the run's scans; it is of " +
-                                             span(method.causal.front().stamp, method.causal.back().stamp) +
-                                             ", the scans are of " + span(run.scans.front(), run.scans.back()));
 }
 
 /// Only outside estimates can be dropped: the run's own cannot be had again without a run.
@@ -207,10 +123,11 @@ int score_again(const ScoreArguments& arguments) {
   refuse_altered(dir, altered, unchecked);
   check_dropped(dropped, run);
   std::vector<MethodRecord> outside;
+  std::string said;
   for (const std::string& text : estimates) {
     Outside given = read_outside(text, dir, run, unchecked);
     MethodRecord& read = given.method;
-    check_stamps(text, read, run);
+    said += given.said;
     if (std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == read.name; }))
       throw InputError({"--estimate", 0, 0}, "'" + read.name + "' is given twice");
     read.gates = own_gates;
@@ -243,7 +160,7 @@ int score_again(const ScoreArguments& arguments) {
   renew_manifest(dir, written);
   std::string asked;
   for (const MethodRecord& method : outside) asked += asked_text(method, score);
-  print("report: " + printable(dir) + "/report.html\n" + asked + summarise(run, score));
+  print("report: " + printable(dir) + "/report.html\n" + said + asked + summarise(run, score));
   return exit_code(run, score);
 }
 
@@ -272,8 +189,10 @@ Command add_score(CommandLine& program) {
   line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").takes("DIR").required();
   line.option(
       "--estimate", options->estimates,
-      "NAME=FILE[,frame=W|M]: poses of the robot (TUM, KITTI or EuRoC) in the plan's frame W or its own M [M]; or "
-      "NAME=directory that plumbline estimate wrote, of the run's recording");
+      "NAME=FILE[,frame=W|M][,topic=TOPIC][,shift=S|auto]: poses of the robot (TUM, KITTI or EuRoC, or a topic of a "
+      "bag) "
+      "in the plan's frame W or its own M [M], S seconds added to their stamps, or as many as make them move with the "
+      "robot; or NAME=directory that plumbline estimate wrote, of the run's recording");
   line.option("--map", options->maps,
               "NAME=FILE: the map (.ply, .pcd) of the estimate of this name, in the frame of its poses");
   line.option(
@@ -290,6 +209,7 @@ Command add_score(CommandLine& program) {
             "takes files that were altered since they were written; results.json names them");
   line.footer(
       "Example: plumbline score runs/quickstart-1 --estimate kiss=kiss.tum --estimate amcl=amcl.tum,frame=W\n"
+      "         plumbline score runs/quickstart-1 --estimate mine=walk.mcap,topic=/odom_estimated,shift=auto\n"
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper\n"
       "         plumbline score runs/quickstart-1 --estimate mine=mine.tum --map mine=mine.ply --gate "
       "'map_rmse_m<=0.05'\n"

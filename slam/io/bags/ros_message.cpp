@@ -337,6 +337,26 @@ OdometryMessage read_odometry(std::span<const std::uint8_t> bytes, Encoding enco
   return out;
 }
 
+bool holds_poses(std::string_view type) {
+  return type == "nav_msgs/Odometry" || type == "nav_msgs/Path" || type == "geometry_msgs/PoseStamped" ||
+         type == "geometry_msgs/PoseWithCovarianceStamped";
+}
+
+std::vector<StampedPose> read_poses(std::string_view type, std::span<const std::uint8_t> bytes, Encoding encoding) {
+  Reader in(bytes, encoding);
+  std::string frame;
+  const auto pose = [&] {
+    const Nanoseconds stamp = in.header(frame);
+    if (type == "nav_msgs/Odometry") static_cast<void>(in.text());  // frame of the child
+    return StampedPose{stamp, in.pose()};
+  };
+  if (type != "nav_msgs/Path") return {pose()};
+  static_cast<void>(in.header(frame));
+  std::vector<StampedPose> poses;
+  for (std::size_t left = in.length(68); left > 0; --left) poses.push_back(pose());
+  return poses;
+}
+
 FramedImu read_imu(std::span<const std::uint8_t> bytes, Encoding encoding) {
   Reader in(bytes, encoding);
   FramedImu out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bim/errors.h"
+#include "slam/io/estimate.h"
 #include "slam/io/packets/point_cloud.h"
 #include "slam/io/records.h"
 #include "slam/io/ros2/message_source.h"
@@ -94,6 +95,13 @@ struct Transforms {
 };
 [[nodiscard]] std::string impossible_transforms(const std::string& topic, std::size_t count);
 [[nodiscard]] Transforms read_transforms(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::ros1);
+
+/// Whether poses of a robot are read from messages of this type: nav_msgs/Odometry, nav_msgs/Path,
+/// geometry_msgs/PoseStamped or geometry_msgs/PoseWithCovarianceStamped.
+[[nodiscard]] bool holds_poses(std::string_view type);
+/// The poses of a message of such a type, many of a Path.
+[[nodiscard]] std::vector<StampedPose> read_poses(std::string_view type, std::span<const std::uint8_t> bytes,
+                                                  Encoding encoding = Encoding::ros1);
 
 /// livox_ros_driver2/CustomMsg and its older names: points with times from a base in ns. A cloud without rings, since
 /// Livox's lines are none, of the time base as its stamp.

@@ -128,6 +128,16 @@ TrajectoryForm trajectory_form(std::string_view text) {
   return form;
 }
 
+std::vector<StampedPose> in_other_order(std::vector<StampedPose> poses, TrajectoryForm form) {
+  if (form == TrajectoryForm::kitti) return poses;
+  for (StampedPose& pose : poses) {
+    const Eigen::Quaterniond q = pose.X_FR.q;
+    pose.X_FR.q = form == TrajectoryForm::tum ? Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())
+                                              : Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  }
+  return poses;
+}
+
 std::vector<StampedPose> read_trajectory(std::string_view text, const std::string& file,
                                          std::span<const Nanoseconds> scans) {
   text = without_byte_order_mark(text);

@@ -45,6 +45,54 @@ TEST(Cdr, EveryCutMessageIsRefused) {
             std::string::npos);
 }
 
+TEST(Cdr, PosesAreReadOfEveryTypeThatHoldsThem) {
+  for (const Encoding encoding : {Encoding::ros1, Encoding::cdr}) {
+    ros::OdometryMessage odometry;
+    odometry.X_OR = {7, "odom", "base_link", Pose::from_xyz_yaw({1, 2, 3}, 0.5)};
+    const auto poses = ros::read_poses("nav_msgs/Odometry", ros::write_odometry(odometry, encoding), encoding);
+    ASSERT_EQ(poses.size(), 1U);
+    EXPECT_EQ(poses[0].stamp, 7);
+    EXPECT_EQ(poses[0].X_FR.t, odometry.X_OR.X.t);
+  }
+  std::vector<std::uint8_t> one = {0, 1, 0, 0}, path = one;
+  const auto put = [](std::vector<std::uint8_t>& m, auto value) {
+    m.resize(4 + (m.size() - 4 + sizeof value - 1) / sizeof value * sizeof value);
+    m.resize(m.size() + sizeof value);
+    std::memcpy(&m[m.size() - sizeof value], &value, sizeof value);
+  };
+  const auto put_header = [&](std::vector<std::uint8_t>& m, std::int32_t s) {
+    put(m, s);
+    put(m, std::uint32_t{5});
+    put(m, std::uint32_t{4});
+    for (const char c : {'m', 'a', 'p', '\0'}) put(m, c);
+  };
+  const auto put_pose = [&](std::vector<std::uint8_t>& m, double x) {
+    for (const double v : {x, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8}) put(m, v);
+  };
+  put_header(one, 1);
+  put_pose(one, 1.0);
+  put_header(path, 9);
+  put(path, std::uint32_t{3});
+  for (const int i : {1, 2, 3}) {
+    put_header(path, i);
+    put_pose(path, i);
+  }
+  const auto single = ros::read_poses("geometry_msgs/PoseStamped", one, Encoding::cdr);
+  const auto many = ros::read_poses("nav_msgs/Path", path, Encoding::cdr);
+  ASSERT_EQ(single.size(), 1U);
+  ASSERT_EQ(many.size(), 3U);
+  for (const StampedPose& pose : {single[0], many[0]}) {
+    EXPECT_EQ(pose.stamp, 1'000'000'005);
+    EXPECT_EQ(pose.X_FR.t, Eigen::Vector3d(1.0, 2.0, 3.0));
+    EXPECT_NEAR(pose.X_FR.q.z(), 0.6, 1e-12);
+    EXPECT_NEAR(pose.X_FR.q.w(), 0.8, 1e-12);
+  }
+  EXPECT_EQ(many[2].stamp, 3'000'000'005);
+  EXPECT_THROW((void)ros::read_poses("nav_msgs/Path", std::span(path).first(path.size() - 1), Encoding::cdr),
+               InputError);
+  EXPECT_FALSE(ros::holds_poses("sensor_msgs/Imu"));
+}
+
 TEST(Cdr, LivoxMessagesAreClouds) {
   std::vector<std::uint8_t> m = {0, 1, 0, 0};
   const auto put = [&](auto value) {
