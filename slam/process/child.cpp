@@ -166,7 +166,8 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
     throw;
   }
   for (const int descriptor : {its_stream, its_output}) {
-    links_.push_back(link_of("/proc/self/fd/" + std::to_string(descriptor)));
+    const std::string link = link_of("/proc/self/fd/" + std::to_string(descriptor));
+    if (!link.empty()) links_.push_back(link);
     ::close(descriptor);
   }
 }

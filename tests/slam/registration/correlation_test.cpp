@@ -61,11 +61,12 @@ TEST(Correlation, FindsAMotionThatNothingElseTells) {
     const Points world_K = posts(random, trial, 30);
     const Points scan_R = seen_from(world_K, X_KR);
     // As far as the wanted directions go nothing is known: the search starts at the keyframe.
-    const Pose start = Pose{X_KR.q, {}};
+    const Pose start{X_KR.q, Eigen::Vector3d::Zero()};
     const double heading_R = heading - log_so3(X_KR.q).z();
     std::vector<Vector6d> moves = {along(heading_R)};
     if (both) moves = {along(heading_R + 0.7), along(heading_R + 0.7 + M_PI / 2.0)};
-    const std::optional<Pose> result = correlate(ReturnVoxels(world_K), scan_R, start, {}, moves, 2.4);
+    const std::optional<Pose> result =
+        correlate(ReturnVoxels(world_K), scan_R, start, Eigen::Vector3d::Zero(), moves, 2.4);
     if (!result) continue;
     ++found;
     EXPECT_LT((result->t - X_KR.t).norm(), most_off_m) << "trial " << trial;
@@ -92,9 +93,10 @@ TEST(Correlation, PeaksWhereASensorWasThatTurnedLittle) {
 
 TEST(Correlation, WhatGoesAlongWithTheSensorTellsNothing) {
   const Points rings = ground();
-  EXPECT_FALSE(correlate(ReturnVoxels(rings), rings, Pose{}, {}, std::vector<Vector6d>{along(0.0)}, 2.4));
+  EXPECT_FALSE(
+      correlate(ReturnVoxels(rings), rings, Pose{}, Eigen::Vector3d::Zero(), std::vector<Vector6d>{along(0.0)}, 2.4));
   const Pose turned = Pose::from_xyz_yaw(Eigen::Vector3d::Zero(), 0.4);
-  EXPECT_FALSE(correlate(ReturnVoxels(rings), seen_from(rings, turned), turned, {},
+  EXPECT_FALSE(correlate(ReturnVoxels(rings), seen_from(rings, turned), turned, Eigen::Vector3d::Zero(),
                          std::vector<Vector6d>{along(0.0), along(M_PI / 2.0)}, 2.4));
 }
 
@@ -104,10 +106,10 @@ TEST(Correlation, EqualPlacesAndEmptyScansTellNothing) {
     for (double z = 0.0; z < 1.5; z += 0.3) fence.emplace_back(x, 4.0, z);
   const Pose X_KR = Pose::from_xyz_yaw({1.5, 0.0, 0.0}, 0.0);
   const std::vector<Vector6d> moves = {along(0.0)};
-  EXPECT_FALSE(correlate(ReturnVoxels(fence), seen_from(fence, X_KR), Pose{}, {}, moves, 2.4));
-  EXPECT_FALSE(correlate(ReturnVoxels(fence), Points{}, Pose{}, {}, moves, 2.4));
-  EXPECT_FALSE(correlate(ReturnVoxels(), fence, Pose{}, {}, moves, 2.4));
-  EXPECT_FALSE(correlate(ReturnVoxels(fence), fence, Pose{}, {}, {}, 2.4));
+  EXPECT_FALSE(correlate(ReturnVoxels(fence), seen_from(fence, X_KR), Pose{}, Eigen::Vector3d::Zero(), moves, 2.4));
+  EXPECT_FALSE(correlate(ReturnVoxels(fence), Points{}, Pose{}, Eigen::Vector3d::Zero(), moves, 2.4));
+  EXPECT_FALSE(correlate(ReturnVoxels(), fence, Pose{}, Eigen::Vector3d::Zero(), moves, 2.4));
+  EXPECT_FALSE(correlate(ReturnVoxels(fence), fence, Pose{}, Eigen::Vector3d::Zero(), {}, 2.4));
 }
 
 // Level or tilted by 30 degrees; then the ground's surfels say which way is up.
