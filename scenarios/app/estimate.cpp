@@ -285,6 +285,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const Poverty poverty = options.poverty.value();
   const AlteredRecording altered = altered_in_recording(options.input.recording);
   refuse_altered(altered.folder, altered.files, options.unchecked);
+  options.input.topics.point_times = !poverty.no_times;
   const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
   std::optional<Eigen::Vector3d> moved_by;
   slam::MethodInput input = make_input(options, row, *recording, moved_by);

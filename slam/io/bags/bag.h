@@ -67,6 +67,7 @@ class BagWriter {
 /// Topics to read from a bag; empty: the first one of its type.
 struct BagTopics {
   std::string points, odometry, imu;
+  bool point_times = true;  ///< false: times that cannot be read in all of the first clouds are left out of every one
 };
 
 /// True for a file that starts as a ROS 1 bag, an MCAP or an SQLite file, and a folder of a rosbag2. Throws InputError

@@ -225,6 +225,8 @@ class BagRecording final : public Recording {
     SweepLengthSearch lengths(search.base());
     show_clouds([&](const PointCloud& cloud) { return lengths.add(cloud); });
     times_ = lengths.found();
+    if (!topics_.point_times && !times_.readable)
+      times_ = {{TimeBase::unknown, 0.0, 0, true}, "point times cannot be read and are left out", false};
   }
 
   /// Nothing where it is not known how the IMU's axes lie.

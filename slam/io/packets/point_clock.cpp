@@ -111,10 +111,13 @@ PointClock clock_of(const PointCloud& cloud, const PointField& field, const std:
                     const PointTimes& times) {
   if (const std::optional<PointClock> clock = find_clock(cloud, field, points, times)) return *clock;
   if (times.unit_ns > 0.0)
-    throw InputError({}, "field '" + field.name + "' is not within 1 s of the stamp in the unit of the first scans");
+    throw InputError({}, "field '" + field.name +
+                             "' is not within 1 s of the stamp in the unit of the first scans; --without times leaves "
+                             "those of a bag out "
+                             "where some of its first scans are so");
   throw InputError({}, "field '" + field.name +
                            "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
-                           "(whole numbers: ns from the stamp)");
+                           "(whole numbers: ns from the stamp); --without times leaves those of a bag out");
 }
 
 bool TimeBaseSearch::add(const PointCloud& cloud) {
@@ -156,8 +159,9 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   last_stamp_ = cloud.stamp;
   const std::vector<CloudPoint> points = read_untimed(cloud);
   const auto [first, last] = extent(cloud, {time, 1.0, 0.0}, points);
+  const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0, false});
+  readable_ = readable_ && clock;
   if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
-  const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0});
   const auto [from, to] = clock ? extent(cloud, *clock, points) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
@@ -178,6 +182,7 @@ AssumedTimes SweepLengthSearch::found() const {
   const double unit_ns = found.times.unit_ns;
   const double end_ns = ends_.empty() ? 0.0 : unit_ns > 0.0 ? unit_ns * upper_median(ends_) : upper_median(ends_ns_);
   if (std::abs(end_ns) <= static_cast<double>(longest_sweep_ns)) found.times.end_ns = std::llround(end_ns);
+  found.readable = readable_;
   return found;
 }
 
@@ -185,7 +190,7 @@ AssumedTimes SweepLengthSearch::unit_found() const {
   constexpr std::size_t least_seen = 2;
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
   constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
-  AssumedTimes found{{base_, 0.0, 0}, {}};
+  AssumedTimes found{{base_, 0.0, 0, false}, {}, true};
   if (spacings_ns_.size() < least_seen || spans_.size() < least_seen) return found;
   const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.

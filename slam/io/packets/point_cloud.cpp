@@ -28,7 +28,7 @@ void store(std::vector<std::uint8_t>& bytes, T value) {
 std::vector<CloudPoint> read_points(const PointCloud& cloud, const PointTimes& times) {
   std::vector<CloudPoint> points = read_untimed(cloud);
   const PointField* time = time_field(cloud);
-  if (time == nullptr) return points;
+  if (time == nullptr || times.ignored) return points;
   const PointClock clock = clock_of(cloud, *time, points, times);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double t = clock.nanoseconds(bytes_of(cloud, i));
@@ -95,7 +95,7 @@ CloudScan read_scan(const PointCloud& cloud, const PointTimes& times) {
   std::vector<CloudPoint> points = read_points(cloud, times);
   out.in_mm = is_in_mm(cloud);
   out.far = is_far(points);
-  const bool timed = time_field(cloud) != nullptr;
+  const bool timed = time_field(cloud) != nullptr && !times.ignored;
   const bool named_rings = ring_field(cloud) != nullptr;
   const auto [rings, columns, rings_left_out] = order_points(points, {cloud.width, cloud.height, named_rings, timed});
   out.rings_left_out = rings_left_out;

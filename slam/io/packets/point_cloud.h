@@ -60,12 +60,14 @@ struct PointTimes {
   TimeBase base = TimeBase::unknown;
   double unit_ns = 0.0;  ///< ns that a 1 means, from the stamp; 0: told from each cloud by the field's type
   Nanoseconds end_ns =
-      0;  ///< of most sweeps, from the cloud's stamp; that of one without points cannot be told from it
+      0;                 ///< of most sweeps, from the cloud's stamp; that of one without points cannot be told from it
+  bool ignored = false;  ///< clouds are read as if they had none
 };
 
 struct AssumedTimes {
   PointTimes times;
-  std::string said;  ///< what was assumed of the unit, or does not fit; empty where sweeps are as long as can be
+  std::string said;      ///< what was assumed of the unit, or does not fit; empty where sweeps are as long as can be
+  bool readable = true;  ///< those of all clouds that were looked at
 };
 
 /// Holds the length of a topic's sweeps against the spacing of its clouds. Where that is impossible, longer than 1.5
@@ -91,6 +93,7 @@ class SweepLengthSearch {
   std::vector<double> ends_;        ///< in the field's own unit
   bool shares_ = true;              ///< all go from 0 to 1, or from -1 to 0
   bool from_stamp_ = true;          ///< no times of the day
+  bool readable_ = true;            ///< of all clouds so far
   double unit_ns_ = 0.0;            ///< of the last cloud's times, where they are neither s nor whole numbers; else 0
   int without_times_ = 0;           ///< clouds
 };

@@ -23,10 +23,10 @@ struct Read {
 
 class AlteredWalk : public ::testing::Test {
  protected:
-  Read read(const Alteration& alteration) {
+  Read read(const Alteration& alteration, const BagTopics& topics = {}) {
     const std::string path = folder_ / ("walk" + std::to_string(written_++));
     write_altered(path, alteration);
-    const auto recording = open_bag(path, {}, nullptr);
+    const auto recording = open_bag(path, topics, nullptr);
     Read out;
     for (SensorFrame frame; recording->next(frame);) out.frames.push_back(frame);
     out.left_out = recording->left_out();
@@ -62,6 +62,26 @@ TEST_F(AlteredWalk, TimesFromZeroToOneAreSharesOfASweep) {
   ASSERT_EQ(read_shares.frames.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(static_cast<double>(read_shares.frames[i].scan.stamp - plain.frames[i].scan.stamp), 0.0, 1e5);
+}
+
+// A float holds no time of the day: steps of two minutes.
+TEST_F(AlteredWalk, TimesThatCannotBeReadAreLeftOutWhereThatIsAsked) {
+  Alteration of_day;
+  of_day.cloud = [](int, PointCloud& cloud) {
+    change_field<float>(cloud, time_offset, [](float t) { return 1.7e9F + t; });
+  };
+  EXPECT_NE(input_error([&] { (void)read(of_day); }).find("--without times leaves those of a bag out"),
+            std::string::npos);
+  BagTopics topics;
+  topics.point_times = false;
+  const Read plain = read({}), left_out = read(of_day, topics), readable = read({}, topics);
+  ASSERT_EQ(left_out.assumed.size(), 1U);
+  EXPECT_EQ(left_out.assumed[0], "/velodyne_points: point times cannot be read and are left out");
+  ASSERT_EQ(left_out.frames.size(), 4U);
+  for (const SensorFrame& frame : left_out.frames) EXPECT_EQ(length(frame.scan), 0);
+  EXPECT_TRUE(readable.assumed.empty());
+  ASSERT_EQ(readable.frames.size(), 4U);
+  EXPECT_EQ(readable.frames[0].scan.offset_ns, plain.frames[0].scan.offset_ns);
 }
 
 TEST_F(AlteredWalk, RingsOfOneNumberAreLeftOutAndSaid) {
