@@ -107,8 +107,14 @@ TEST(Child, WhatHoldsItsStreamOrOutputDiesWithIt) {
     }
     std::string number;
     std::ifstream(file) >> number;
+    // What is killed ends when it gets a core; unharmed, it would last for 100 s.
     std::string status;
-    std::getline(std::ifstream("/proc/" + number + "/stat"), status);
+    for (int wait = 0; wait < 1000; ++wait) {
+      status.clear();
+      std::getline(std::ifstream("/proc/" + number + "/stat"), status);
+      if (status.empty() || status.find(") Z ") != std::string::npos) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     EXPECT_TRUE(status.empty() || status.find(") Z ") != std::string::npos) << status;
     std::filesystem::remove(file);
   }
