@@ -2,6 +2,7 @@
 #include "scenarios/app/outside_estimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -129,7 +130,13 @@ std::string apply_shift(const Given& given, std::vector<slam::StampedPose>& pose
   } else {
     throw InputError(mark(), "'shift=" + given.shift + "' must be auto, or seconds that are added to the stamps");
   }
-  for (slam::StampedPose& pose : poses) pose.stamp += *shift;
+  constexpr double latest_ns = 9e18;
+  for (slam::StampedPose& pose : poses) {
+    if (std::abs(static_cast<double>(pose.stamp) + static_cast<double>(*shift)) > latest_ns)
+      throw InputError(mark(), "'shift=" + given.shift + "' makes stamps of " + slam::format_stamp(pose.stamp) +
+                                   " s too large; at most 9e9 s");
+    pose.stamp += *shift;
+  }
   if (given.shift != "auto") return {};
   return given.name + ": " + slam::format_stamp(*shift) + " s added to its stamps, by its motion (shift=auto)\n";
 }

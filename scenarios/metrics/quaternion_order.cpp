@@ -27,9 +27,10 @@ std::string wrong_order(slam::TrajectoryForm form, std::optional<double> as_read
   if (form == slam::TrajectoryForm::kitti || !as_read_m || !other_m) return {};
   if (*as_read_m < rules.least_error_m || *other_m > rules.most_of_as_read * *as_read_m) return {};
   const bool tum = form == slam::TrajectoryForm::tum;
-  return std::string("its quaternions are in the order ") + (tum ? "w x y z" : "x y z w") + ", by which it is off by " +
-         in_m(*other_m) + " over each metre; read as " +
-         (tum ? "x y z w, the order of a TUM file" : "w x y z, the order of a EuRoC file") + ", by " + in_m(*as_read_m);
+  return std::string("its quaternions seem to be in the order ") + (tum ? "w x y z" : "x y z w") +
+         ": read so, the error over each metre is " + in_m(*other_m) + "; read as " +
+         (tum ? "x y z w, the order of a TUM file" : "w x y z, the order of a EuRoC file") + ", it is " +
+         in_m(*as_read_m);
 }
 
 std::string wrong_order(slam::TrajectoryForm form, const std::vector<slam::StampedPose>& poses_F, const Truth& truth) {

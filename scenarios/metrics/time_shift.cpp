@@ -86,6 +86,10 @@ Nanoseconds on_scans(const Truth& truth, const std::vector<slam::StampedPose>& p
 std::optional<Nanoseconds> find_shift(const Truth& truth, const std::vector<slam::StampedPose>& poses_F,
                                       const ShiftRules& rules) {
   if (truth.scans.empty() || truth.poses_W.empty() || poses_F.empty()) return std::nullopt;
+  const auto lasts_s = [](const std::vector<slam::StampedPose>& poses) {
+    return 1e-9 * (static_cast<double>(poses.back().stamp) - static_cast<double>(poses.front().stamp));
+  };
+  if (lasts_s(poses_F) > lasts_s(truth.poses_W) + rules.most_longer_s) return std::nullopt;
   const std::vector<Motion> a = motions_of(truth.poses_W, rules), b = motions_of(poses_F, rules);
   const auto least = static_cast<std::size_t>(rules.least_overlap * static_cast<double>(std::min(a.size(), b.size())));
   const auto window = static_cast<std::ptrdiff_t>(rules.window_s / rules.step_s);

@@ -16,7 +16,7 @@ namespace plumbline::scenarios {
 namespace {
 
 constexpr double sample_m = 0.1;  ///< of the walk, for the rooms it enters
-const double well_inside_m = sim::RouteConfig().inside_m;
+constexpr double well_inside_m = sim::RouteConfig().inside_m;
 constexpr double short_m = 10.0;         ///< a shorter walk shows little
 constexpr double least_share_out = 0.1;  ///< of a room's walkable floor, for a word on it
 

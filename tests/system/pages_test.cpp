@@ -8,42 +8,27 @@
 
 #include "bim/config/tree.h"
 #include "tests/system/program.h"
+#include "tests/system/run_once.h"
 
 namespace plumbline::system_tests {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Pages : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    if (!available()) return;
-    folder_ = new Folder();
+class Pages : public RunOnce<Pages> {
+ public:
+  static Outcome begin() {
     for (const char* name : {"short.yaml", "short.plan.yaml"})
       write_file(*folder_ / name, read_file(project_file(std::string("tests/system/") + name)));
     write_file(*folder_ / "sweep.yaml",
                "sweep: 1\nscenarios: [short.yaml]\nseeds: 2\nmethods: [odometry]\n"
                "variants: [{name: two, set: [duration_s=2]}]\n");
-    outcome_ =
-        new Outcome(plumbline({"sweep", *folder_ / "sweep.yaml", "-o", out(), "--jobs", "2", "--page", "worst"}));
+    return plumbline({"sweep", *folder_ / "sweep.yaml", "-o", out(), "--jobs", "2", "--page", "worst"});
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    delete outcome_;
-    folder_ = nullptr;
-    outcome_ = nullptr;
-  }
-  void SetUp() override {
-    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
-    ASSERT_EQ(outcome_->code, 0) << outcome_->out << outcome_->err;
-  }
-  static std::string out() { return *folder_ / "out"; }
 
-  static Folder* folder_;
-  static Outcome* outcome_;
+ protected:
+  static std::string out() { return *folder_ / "out"; }
 };
-Folder* Pages::folder_ = nullptr;
-Outcome* Pages::outcome_ = nullptr;
 
 TEST_F(Pages, ASweepLinksThePageOfItsWorstRunAndItIsThatRun) {
   const std::string page = read_file(out() + "/table.html");

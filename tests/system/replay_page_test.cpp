@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tests/system/program.h"
+#include "tests/system/run_once.h"
 
 namespace plumbline::system_tests {
 namespace {
@@ -19,37 +20,22 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-class ReplayPage : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    if (!available()) return;
-    folder_ = new Folder();
+class ReplayPage : public RunOnce<ReplayPage, 1> {
+ public:
+  static Outcome begin() {
     const std::string plan = read_file(project_file("tests/system/short.plan.yaml"));
     write_file(*folder_ / "short.plan.yaml", replaced(plan, "id: hall,", "id: 'h<img src=x onerror=y>',"));
     std::string scenario = read_file(project_file("tests/system/short.yaml"));
     scenario =
         replaced(replaced(scenario, "name: short", "name: '" + hostile + "'"), "[hall,", "['h<img src=x onerror=y>',");
     write_file(*folder_ / "hostile.yaml", replaced(scenario, "max: 0.25", "max: 0.0001"));
-    outcome_ = new Outcome(plumbline({"run", *folder_ / "hostile.yaml", "--out", dir(), "--threads", "2", "--record"}));
+    return plumbline({"run", *folder_ / "hostile.yaml", "--out", dir(), "--threads", "2", "--record"});
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    delete outcome_;
-    folder_ = nullptr;
-    outcome_ = nullptr;
-  }
-  void SetUp() override {
-    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
-    ASSERT_EQ(outcome_->code, 1) << outcome_->out << outcome_->err;
-  }
+
+ protected:
   static std::string dir() { return *folder_ / "run it"; }
   static std::string page() { return read_file(dir() + "/replay.html"); }
-
-  static Folder* folder_;
-  static Outcome* outcome_;
 };
-Folder* ReplayPage::folder_ = nullptr;
-Outcome* ReplayPage::outcome_ = nullptr;
 
 TEST_F(ReplayPage, AFailedRunSaysWhereToLook) {
   EXPECT_NE(outcome_->out.find("look:  " + dir() + "/replay.html#t="), std::string::npos) << outcome_->out;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/system/program.h"
+#include "tests/system/run_once.h"
 
 namespace plumbline::system_tests {
 namespace {
@@ -31,32 +32,14 @@ void expect_equal(const std::string& a, const std::string& b) {
   }
 }
 
-/// One run for all tests of this file, made on first use.
-class ShortRun : public ::testing::Test {
+class ShortRun : public RunOnce<ShortRun> {
+ public:
+  static Outcome begin() { return plumbline({"run", input(), "--out", dir(), "--threads", "2", "--record"}); }
+
  protected:
-  static void SetUpTestSuite() {
-    if (!available()) return;
-    folder_ = new Folder();
-    outcome_ = new Outcome(plumbline({"run", input(), "--out", dir(), "--threads", "2", "--record"}));
-  }
-  static void TearDownTestSuite() {
-    delete folder_;
-    delete outcome_;
-    folder_ = nullptr;
-    outcome_ = nullptr;
-  }
-  void SetUp() override {
-    if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
-    ASSERT_EQ(outcome_->code, 0) << outcome_->out << outcome_->err;
-  }
   static std::string input() { return project_file("tests/system/short.yaml"); }
   static std::string dir() { return *folder_ / "short"; }
-
-  static Folder* folder_;
-  static Outcome* outcome_;
 };
-Folder* ShortRun::folder_ = nullptr;
-Outcome* ShortRun::outcome_ = nullptr;
 
 TEST_F(ShortRun, LeavesTheFilesOfTheContract) {
   for (const char* name :

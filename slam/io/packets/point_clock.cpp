@@ -113,8 +113,7 @@ PointClock clock_of(const PointCloud& cloud, const PointField& field, const std:
   if (times.unit_ns > 0.0)
     throw InputError({}, "field '" + field.name +
                              "' is not within 1 s of the stamp in the unit of the first scans; --without times leaves "
-                             "those of a bag out "
-                             "where some of its first scans are so");
+                             "point times out where those of a bag's first scans are so");
   throw InputError({}, "field '" + field.name +
                            "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
                            "(whole numbers: ns from the stamp); --without times leaves those of a bag out");

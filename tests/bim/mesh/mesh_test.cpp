@@ -64,50 +64,6 @@ Wall with_body(Wall wall, double angle) {
   return wall;
 }
 
-TEST(Solid, BoxIsClosedOutwardAndHasItsVolume) {
-  const Solid solid = box({1, 2, 3}, {2, 4, 6});
-  EXPECT_TRUE(is_closed(solid));
-  EXPECT_DOUBLE_EQ(volume(solid), 6.0);
-  EXPECT_EQ(solid.triangles.size(), 12U);
-}
-
-TEST(Solid, MissingOrTurnedTriangleIsNotClosed) {
-  Solid open = box({0, 0, 0}, {1, 1, 1});
-  open.triangles.pop_back();
-  EXPECT_FALSE(is_closed(open));
-  Solid turned = box({0, 0, 0}, {1, 1, 1});
-  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
-  EXPECT_FALSE(is_closed(turned));
-  EXPECT_FALSE(is_closed({}));
-}
-
-TEST(Solid, CanonicalFormForgetsTheOrder) {
-  const Solid solid = box({0, 0, 0}, {1, 2, 3});
-  Solid shuffled = solid;
-  std::reverse(shuffled.triangles.begin(), shuffled.triangles.end());
-  std::reverse(shuffled.vertices.begin(), shuffled.vertices.end());
-  const int last = static_cast<int>(solid.vertices.size()) - 1;
-  for (Eigen::Vector3i& t : shuffled.triangles) t = Eigen::Vector3i(last - t[1], last - t[2], last - t[0]);
-  const Solid a = canonical(solid, 1e-6), b = canonical(shuffled, 1e-6);
-  EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_TRUE(is_closed(a));
-  EXPECT_DOUBLE_EQ(volume(a), 6.0);
-}
-
-TEST(Solid, WeldingClosesATriangleSoup) {
-  const Solid solid = box({0, 0, 0}, {1, 1, 1});
-  Solid soup;
-  for (const Eigen::Vector3i& t : solid.triangles) {
-    const int first = static_cast<int>(soup.vertices.size());
-    for (int i = 0; i < 3; ++i) soup.vertices.push_back(solid.vertices[static_cast<std::size_t>(t[i])]);
-    soup.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  EXPECT_FALSE(is_closed(soup));
-  EXPECT_TRUE(is_closed(welded(soup, 1e-5)));
-  EXPECT_EQ(welded(soup, 1e-5).vertices.size(), 8U);
-}
-
 TEST(WallCut, PlainWallIsABoxWhereItStands) {
   Wall wall = wall_of(4.0, 0.2);
   wall.a = {1.0, 1.0};
