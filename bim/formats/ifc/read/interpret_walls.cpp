@@ -168,7 +168,7 @@ void Interpreter::add_walls() {
 
 /// False where the body is not straight either.
 bool Interpreter::take_line_of_body(const StepProduct& product, Wall& wall) {
-  constexpr double least_straight = 0.95;
+  constexpr double least_straight = 0.95;  // of its box along the line; assumed
   Wall along = wall;
   const auto on_plan = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(snapped(p.x()), snapped(p.y())); };
   const auto [a, b] = line_along(product, *wall.body);
