@@ -2,6 +2,8 @@
 // Estimators work on every sensor of the table, not on the VLP-16 alone.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/laws/walk.h"
 
 namespace plumbline {
@@ -10,6 +12,7 @@ namespace {
 struct Sensor {
   const char* name;
   slam::LidarModelId model;
+  friend void PrintTo(const Sensor& sensor, std::ostream* out) { *out << sensor.name; }
 };
 
 class EverySensor : public ::testing::TestWithParam<Sensor> {};

@@ -125,7 +125,7 @@ std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
     }
     if (ring != nullptr) {
       const double value = number_at(bytes + ring->offset, ring->type);
-      const bool is_ring = value >= 0.0 && value < most_cloud_rings;
+      const bool is_ring = value >= 0.0 && value < most_cloud_rings + 1.0;  // who counts from 1 has the last one, too
       if (!is_ring && point.valid) throw InputError({}, "point of a ring that is not within 0 to 127");
       if (is_ring) point.ring = static_cast<int>(value);
     }

@@ -87,6 +87,24 @@ int ring_count(const std::vector<CloudPoint>& points) {
   return most_cloud_rings;
 }
 
+/// Some drivers count from 1: where no point is of ring 0 and the last one is as many as a LiDAR has. Throws InputError
+/// where a return's ring is above 127 then.
+void count_from_zero(std::vector<CloudPoint>& points) {
+  int lowest = most_cloud_rings, highest = 0;
+  for (const CloudPoint& point : points) {
+    if (point.ring < 0) continue;
+    lowest = std::min(lowest, point.ring);
+    highest = std::max(highest, point.ring);
+  }
+  const bool from_one = lowest == 1 && (highest == 16 || highest == 32 || highest == 64 || highest == most_cloud_rings);
+  for (CloudPoint& point : points) {
+    if (from_one && point.ring > 0) --point.ring;
+    if (point.ring < most_cloud_rings) continue;
+    if (point.valid) throw InputError({}, "point of a ring that is not within 0 to 127");
+    point.ring = -1;
+  }
+}
+
 /// Elevation of a ring that has returns.
 struct RingElevation {
   int ring = 0;
@@ -322,6 +340,7 @@ CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines
   const bool named = lines.named_rings && !left_out;
   if (!named && !rings_by_layout(points, lines) && !find_rings(points) && !find_cones(points))
     return {1, without_rings(points), left_out};
+  if (named) count_from_zero(points);
   const int rings = ring_count(points);
   order_rings(points, rings);
   return {rings, find_columns(points, lines, rings), left_out};

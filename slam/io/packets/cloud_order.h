@@ -39,7 +39,8 @@ struct CloudOrder {
 /// Gives width x height points the slots of a scan: rings from the lowest, by name, by the layout of an organised
 /// cloud, by the elevations of a VLP-16 or by cones of equal elevation, else one ring; columns by layout, time or
 /// azimuth, of one ring a column a point. A ring that is the same for returns of many elevations is no name. A point
-/// that has no slot gets ring -1. Throws InputError without a mark where most points are on one ring.
+/// that has no slot gets ring -1. Throws InputError without a mark where most points are on one ring or a ring is above
+/// 127; who counts from 1 may have 128.
 [[nodiscard]] CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines);
 
 }  // namespace plumbline::slam

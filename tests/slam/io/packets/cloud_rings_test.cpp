@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "bim/errors.h"
 #include "tests/slam/io/packets/made_cloud.h"
 
 namespace plumbline::slam {
@@ -65,6 +66,34 @@ TEST(CloudRings, RingsInAnyOrderAreSortedByElevation) {
       fewer.reflectivity[i] = 0.0F;
     }
   expect_near(scan_of(cloud_with({"x", "y", "z", "ring", "intensity"}, points_of(fewer, laser_of_ring))), fewer);
+}
+
+TEST(CloudRings, MayBeCountedFromOne) {
+  const Scan scan = some_scan();
+  for (const auto& number :
+       {std::function<int(int)>([](int ring) { return ring + 1; }), {[](int ring) { return 16 - ring; }}}) {
+    const Scan again = scan_of(cloud_with({"x", "y", "z", "ring", "intensity"}, points_of(scan, number)));
+    ASSERT_EQ(again.rings, scan.rings);
+    ASSERT_EQ(again.columns, scan.columns);
+    expect_near(again, scan);
+  }
+}
+
+// The most that a cloud may have.
+TEST(CloudRings, AHundredAndTwentyEightMayBeCountedFromOne) {
+  const auto rings_from = [](int first) {
+    std::vector<std::vector<float>> points;
+    for (int k = 0; k < 200; ++k)
+      for (int ring = 0; ring < 128; ++ring)
+        points.push_back({static_cast<float>(5.0 * std::cos(0.03 * k)), static_cast<float>(-5.0 * std::sin(0.03 * k)),
+                          0.02F * static_cast<float>(ring), static_cast<float>(first + ring)});
+    return cloud_with({"x", "y", "z", "ring"}, points);
+  };
+  const Scan from_zero = scan_of(rings_from(0)), from_one = scan_of(rings_from(1));
+  EXPECT_EQ(from_one.rings, 128);
+  ASSERT_EQ(from_one.columns, from_zero.columns);
+  EXPECT_EQ(from_one.range_m, from_zero.range_m);
+  EXPECT_THROW(static_cast<void>(scan_of(rings_from(2))), InputError);
 }
 
 TEST(CloudRings, PartOfATurnMayComeRingByRing) {
