@@ -2,6 +2,7 @@
 // What must be true of every estimator: it lives on what a robot's sensors gave, and on nothing else.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 
 #include "bim/random/stream.h"
@@ -23,17 +24,23 @@ std::vector<slam::SensorFrame> first_frames() {
   return {walk.frames.begin(), walk.frames.begin() + 60};
 }
 
-class EveryMethod : public ::testing::TestWithParam<std::string> {};
+class EveryMethod : public ::testing::TestWithParam<std::string> {
+ protected:
+  /// The method's answer to the first scans, asked once.
+  [[nodiscard]] static const Answer& first_answer() {
+    static std::map<std::string, Answer> answers;
+    const auto known = answers.find(GetParam());
+    if (known != answers.end()) return known->second;
+    return answers.emplace(GetParam(), answer_of(GetParam(), method_input(short_walk(), GetParam()), first_frames()))
+        .first->second;
+  }
+};
 
-TEST_P(EveryMethod, AnswersTheSameTwiceAndFromThePacketsAlone) {
-  const SimulatedWalk& walk = short_walk();
-  const auto input = method_input(walk, GetParam());
-  const std::vector<slam::SensorFrame> frames = first_frames();
-  const std::uint64_t first = digest_of(answer_of(GetParam(), input, frames));
-  EXPECT_EQ(digest_of(answer_of(GetParam(), input, frames)), first);
-  std::vector<slam::SensorFrame> decoded = frames;
+TEST_P(EveryMethod, AnswersTheSameAgainFromThePacketsAlone) {
+  std::vector<slam::SensorFrame> decoded = first_frames();
   for (slam::SensorFrame& frame : decoded) frame.scan = slam::decode_message(frame.packets);
-  EXPECT_EQ(digest_of(answer_of(GetParam(), input, decoded)), first);
+  const Answer again = answer_of(GetParam(), method_input(short_walk(), GetParam()), decoded);
+  EXPECT_EQ(digest_of(again), digest_of(first_answer()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, EveryMethod, ::testing::ValuesIn(all_methods()),
@@ -71,7 +78,7 @@ TEST_P(EveryMethod, AnswersTheSameFromAnotherOdometryFrame) {
   std::vector<slam::SensorFrame> moved = frames;
   for (auto& frame : moved)
     for (auto& odometry : frame.odometry) odometry.X_OR = X_PO * odometry.X_OR;
-  const Answer here = answer_of(GetParam(), input, frames);
+  const Answer& here = first_answer();
   const Answer there = answer_of(GetParam(), input, moved);
   // Only dead reckoning answers in the odometry's frame.
   const Pose X_NM = GetParam() == "odometry" ? X_PO : Pose{};
