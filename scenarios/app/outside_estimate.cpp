@@ -117,7 +117,8 @@ void check_stamps(const std::string& text, const MethodRecord& method, const Fin
 }
 
 /// Adds what `shift` says to the stamps; returns what was found.
-std::string apply_shift(const Given& given, std::vector<slam::StampedPose>& poses, const FinishedRun& run) {
+std::string apply_shift(const Given& given, MethodRecord& method, const FinishedRun& run) {
+  std::vector<slam::StampedPose>& poses = method.causal;
   if (given.shift.empty()) return {};
   std::optional<slam::Nanoseconds> shift;
   if (given.shift == "auto") {
@@ -137,6 +138,7 @@ std::string apply_shift(const Given& given, std::vector<slam::StampedPose>& pose
                                    " s too large; at most 9e9 s");
     pose.stamp += *shift;
   }
+  method.shift = *shift;
   if (given.shift != "auto") return {};
   return given.name + ": " + slam::format_stamp(*shift) + " s added to its stamps, by its motion (shift=auto)\n";
 }
@@ -170,7 +172,7 @@ Outside read_outside(const std::string& text, const std::string& run_dir, const 
   method.localization = given.world;
   method.estimate.frame = given.world ? slam::Frame::world : slam::Frame::map;
   method.causal = read_poses(given, run);
-  outside.said = apply_shift(given, method.causal, run);
+  outside.said = apply_shift(given, method, run);
   check_stamps(text, method, run);
   if (given.topic.empty())
     if (const std::string why =

@@ -212,6 +212,7 @@ Tree to_results(const MethodScore& score) {
   Tree tree = Tree::map();
   tree.set("verdict", score.verdict);
   if (!score.error.empty()) tree.set("error", score.error);
+  if (score.shift != 0) tree.set("shift_ns", score.shift);
   std::vector<std::pair<std::string, Tree>> blocks;
   const auto block_of = [&](const std::string& name) -> Tree& {
     const auto it = std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) { return b.first == name; });

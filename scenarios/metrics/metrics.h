@@ -31,8 +31,9 @@ struct TrackingScore {
 /// Everything scored of one method. What does not apply is absent.
 struct MethodScore {
   std::string name;
-  std::string verdict;  ///< complete | lost | crashed, or a LocalizationVerdict
-  std::string error;    ///< why it crashed
+  std::string verdict;          ///< complete | lost | crashed, or a LocalizationVerdict
+  std::string error;            ///< why it crashed
+  slam::Nanoseconds shift = 0;  ///< added to the stamps of an outside estimate
   std::optional<TrajectoryScore> trajectory;
   std::optional<TrackingScore> tracking;
   std::optional<MapScore> map;

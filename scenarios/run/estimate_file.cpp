@@ -282,6 +282,7 @@ std::string write_estimate(const MethodRecord& method) {
   tree.set("frame", method.estimate.frame == slam::Frame::world ? "world" : "map");
   tree.set("scored_as", method.localization ? "localization" : "slam");
   if (method.crashed) tree.set("crashed", method.error);
+  if (method.shift != 0) tree.set("shift_ns", method.shift);
   if (method.scans > 0)
     tree.set("scans", method.scans)
         .set("lost_scans", method.lost_scans)
@@ -309,6 +310,7 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
     method.crashed = true;
     method.error = error->as_string();
   }
+  if (const Tree* shift = tree.find("shift_ns")) method.shift = shift->as_int();
   if (const Tree* scans = tree.find("scans")) {
     method.scans = static_cast<int>(scans->as_int());
     method.lost_scans = static_cast<int>(child(tree, "lost_scans").as_int());

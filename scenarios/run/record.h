@@ -42,6 +42,7 @@ struct MethodRecord {
   std::vector<BeliefRecord> beliefs;      ///< of plan localization: one a scan
   slam::Estimate estimate;
   std::vector<GateSpec> gates;  ///< of an outside estimate: asked of it in place of the scenario's
+  slam::Nanoseconds shift = 0;  ///< of an outside estimate: added to its stamps
   DigestLog digests;
   std::vector<StageTimes> times;
 };

@@ -256,6 +256,7 @@ RunScore score_run(const FinishedRun& run) {
                                 : score_slam(method, reference);
     one.name = method.name;
     one.error = method.error;
+    one.shift = method.shift;
     score.methods.push_back(std::move(one));
   }
   score.gates = judge_gates(all_gates(run), score.methods, run.record.failure.empty());

@@ -84,7 +84,11 @@ TEST_F(OutsideTrajectory, OnAnotherClockTheShiftIsFoundByItsMotion) {
     EXPECT_NE(found.out.find("e: " + slam::format_stamp(-by) + " s added to its stamps"), std::string::npos)
         << found.out;
     EXPECT_EQ(methods()["e"]["ate_aligned_rmse_m"], methods()["vgicp"]["ate_aligned_rmse_m"]);
+    EXPECT_EQ(methods()["e"]["shift_ns"], -by);
+    ASSERT_EQ(plumbline({"score", run()}).code, 0);  // the file keeps it
+    EXPECT_EQ(methods()["e"]["shift_ns"], -by);
   }
+  EXPECT_FALSE(methods()["vgicp"].contains("shift_ns"));
   write_file(file, shifted(1'700'000'000'000'000'000, 30));  // it began later
   EXPECT_NE(score("e=" + file + ",shift=auto").out.find("e: -1700000000.000000000 s added"), std::string::npos);
   refuse("e=" + file, "shift=auto finds what is between two clocks");
