@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "bim/config/tree.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -37,8 +38,8 @@ std::string quoted(const bim::Room& room) {
 }
 
 RoomPlaces::RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space,
-                       const std::optional<sim::FloorPoint>& from)
-    : building_(as_built), space_(space), from_(from), places_(as_built.rooms.size()) {}
+                       const std::optional<sim::FloorPoint>& from, std::vector<int> inside)
+    : building_(as_built), space_(space), from_(from), inside_(std::move(inside)), places_(as_built.rooms.size()) {}
 
 const std::optional<sim::FloorPoint>& RoomPlaces::of(int room) const {
   std::optional<std::optional<sim::FloorPoint>>& place = places_.at(static_cast<std::size_t>(room));
@@ -52,7 +53,9 @@ const std::optional<sim::FloorPoint>& RoomPlaces::of(int room) const {
       found.size() < 2 || !from_ ? found.begin() : std::find_if(found.begin(), found.end(), [&](const auto& p) {
         return !space_.path(*from_, point(p)).empty();
       });
-  *place = point(reached == found.end() ? found.front() : *reached);
+  const Eigen::Vector2d& freest = reached == found.end() ? found.front() : *reached;
+  const bool inside = std::find(inside_.begin(), inside_.end(), room) != inside_.end();
+  *place = point(inside ? space_.storey(of.storey).inner_target(of, freest) : freest);
   return *place;
 }
 

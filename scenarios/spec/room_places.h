@@ -20,9 +20,9 @@ namespace plumbline::scenarios {
 class RoomPlaces {
  public:
   /// Both must outlive it. Where the floor of a room falls into pieces, those that can be reached `from` a point go
-  /// before others.
+  /// before others. Those of the rooms `inside` lie as far inside these as they can.
   RoomPlaces(const bim::Building& as_built, const sim::MultiStoreyPlanner& space,
-             const std::optional<sim::FloorPoint>& from = std::nullopt);
+             const std::optional<sim::FloorPoint>& from = std::nullopt, std::vector<int> inside = {});
 
   /// Of the room with this index, if the robot can turn round in it.
   [[nodiscard]] const std::optional<sim::FloorPoint>& of(int room) const;
@@ -51,6 +51,7 @@ class RoomPlaces {
   const bim::Building& building_;
   const sim::MultiStoreyPlanner& space_;
   std::optional<sim::FloorPoint> from_;
+  std::vector<int> inside_;
   mutable std::vector<std::optional<std::optional<sim::FloorPoint>>> places_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "bim/model/odd_size.h"
 #include "scenarios/spec/closed_doors.h"
+#include "scenarios/spec/entered_room.h"
 #include "scenarios/spec/exploration_route.h"
 #include "scenarios/spec/named_places.h"
 #include "scenarios/spec/room_places.h"
@@ -338,6 +339,16 @@ int start_storey(const bim::Building& building, const RoomPlaces& places, const 
   return std::max(lowest, 0);
 }
 
+/// Rooms that a walk names and does not enter.
+std::vector<int> rooms_passed(const sim::MultiStoreyPlanner& space, const RoutePlan& plan) {
+  std::vector<int> passed;
+  for (std::size_t i = 0; i < space.building().rooms.size(); ++i)
+    if (std::find(plan.rooms.begin(), plan.rooms.end(), space.building().rooms[i].id) != plan.rooms.end() &&
+        !enters_room(space, plan.waypoints, static_cast<int>(i)))
+      passed.push_back(static_cast<int>(i));
+  return passed;
+}
+
 double first_heading_deg(const Path& waypoints) {
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const Eigen::Vector2d leg = (waypoints[i].p_W - waypoints[0].p_W).head<2>();
@@ -357,12 +368,24 @@ int storey_of(const bim::Building& building, const std::optional<std::string>& n
 
 RoutePlan plan_route(const sim::MultiStoreyPlanner& space, const Start& start, const Route& route,
                      const RouteMarks& marks, std::optional<double> all_longest_m) {
-  RoutePlan plan;
+  RoutePlan begun;
   const RoomPlaces places(space.building(), space);
-  plan.storey = start_storey(space.building(), places, start, marks);
-  plan.start_W = Planner(space, places, plan.storey, marks, all_longest_m).place(start);
-  const RoomPlaces in_reach(space.building(), space, sim::FloorPoint{plan.storey, plan.start_W});
-  Planner(space, in_reach, plan.storey, marks, all_longest_m).walk(route, plan);
+  begun.storey = start_storey(space.building(), places, start, marks);
+  begun.start_W = Planner(space, places, begun.storey, marks, all_longest_m).place(start);
+  const auto walk = [&](const std::vector<int>& inside) {
+    RoutePlan plan = begun;
+    const RoomPlaces in_reach(space.building(), space, FloorPoint{plan.storey, plan.start_W}, inside);
+    Planner(space, in_reach, plan.storey, marks, all_longest_m).walk(route, plan);
+    return plan;
+  };
+  RoutePlan plan = walk({});
+  // A walk through all rooms that only passes some, at an open side where their floor is freest, goes into them.
+  if (const std::vector<int> passed = rooms_passed(space, plan);
+      route.rooms == std::vector<std::string>{std::string(all_rooms)} && !passed.empty()) {
+    RoutePlan inside = walk(passed);
+    if (inside.rooms.size() >= plan.rooms.size() && rooms_passed(space, inside).size() < passed.size())
+      plan = std::move(inside);
+  }
   plan.length_m = sim::length(plan.waypoints);
   plan.stairs_m = sim::length_on_stairs(plan.waypoints);
   plan.yaw_deg = start.yaw_deg ? *start.yaw_deg : first_heading_deg(plan.waypoints);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "scenarios/spec/entered_room.h"
 #include "scenarios/spec/room_places.h"
 #include "sim/route/clearance_map.h"
 #include "sim/route/speed_profile.h"
@@ -15,8 +16,6 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr double sample_m = 0.1;  ///< of the walk, for the rooms it enters
-constexpr double well_inside_m = sim::RouteConfig().inside_m;
 constexpr double short_m = 10.0;         ///< a shorter walk shows little
 constexpr double least_share_out = 0.1;  ///< of a room's walkable floor, for a word on it
 
@@ -28,23 +27,6 @@ std::string metres(double x, double steps = 1e2) { return format_number(std::rou
 
 std::string name_of(const bim::Room& room) { return room.name.empty() ? room.id : room.name; }
 
-/// Whether a walk gets so far into a room.
-bool enters(const std::vector<sim::Waypoint>& way, const bim::Room& room, double floor_z, double inside_m) {
-  const auto is_in = [&](const Eigen::Vector2d& p) {
-    return room.contains(p) && room.boundary_distance(p) >= inside_m;
-  };
-  if (way.size() == 1) return is_in(way.front().p_W.head<2>());
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Eigen::Vector3d &a = way[i - 1].p_W, &b = way[i].p_W;
-    const int count = 1 + static_cast<int>((b - a).norm() / sample_m);
-    for (int k = 0; k <= count; ++k) {
-      const Eigen::Vector3d p = a + (b - a) * (static_cast<double>(k) / count);
-      if (std::abs(p.z() - floor_z) < 1.0 && is_in(p.head<2>())) return true;
-    }
-  }
-  return false;
-}
-
 /// Looks at the rooms of one storey from the start of a walk.
 class Surveyor {
  public:
@@ -54,13 +36,7 @@ class Surveyor {
         plan_(plan),
         places_(space.building(), space, sim::FloorPoint{plan.storey, plan.start_W}) {}
 
-  /// Well inside, or as far as the robot fits into it: a walk along a common edge is in neither room.
-  [[nodiscard]] bool is_entered(int index) const {
-    const bim::Room& room = building_.rooms[static_cast<std::size_t>(index)];
-    const double floor_z = building_.storeys[static_cast<std::size_t>(room.storey)].elevation_m;
-    if (!enters(plan_.waypoints, room, floor_z, 0.0)) return false;
-    return enters(plan_.waypoints, room, floor_z, depth(room) - space_.storey(room.storey).grid().cell);
-  }
+  [[nodiscard]] bool is_entered(int index) const { return enters_room(space_, plan_.waypoints, index); }
 
   [[nodiscard]] bool in_reach(int index) const {
     const std::optional<sim::FloorPoint>& place = places_.of(index);
@@ -108,16 +84,6 @@ class Surveyor {
   }
 
  private:
-  /// How far inside a room the robot can be, up to well inside, m.
-  [[nodiscard]] double depth(const bim::Room& room) const {
-    const sim::ClearanceMap& floor = space_.storey(room.storey);
-    double deepest_m = 0.0;
-    for (std::size_t cell = 0; cell < floor.grid().size() && deepest_m < well_inside_m; ++cell)
-      if (const Eigen::Vector2d p = floor.grid().center(cell); floor.passable(cell) && room.contains(p))
-        deepest_m = std::max(deepest_m, room.boundary_distance(p));
-    return std::min(deepest_m, well_inside_m);
-  }
-
   [[nodiscard]] const sim::Blockages& blockages() {
     if (!blockages_)
       blockages_ =

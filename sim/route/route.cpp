@@ -112,20 +112,23 @@ std::optional<std::size_t> ClearanceMap::freest_cell(const bim::Room& room) cons
   return best;
 }
 
-std::size_t ClearanceMap::well_inside(const bim::Room& room, std::size_t freest) const {
-  const auto depth_m = [&](std::size_t cell) { return room.boundary_distance(grid_.center(cell)); };
-  // The open end of a corridor is a good place to walk through; without walls every side is open.
-  if (!room.walls.empty() || depth_m(freest) >= on_outline_m) return freest;
+std::size_t ClearanceMap::innermost(const bim::Room& room, std::size_t freest) const {
   std::size_t best = freest;
   double best_depth_m = 0.0;  // up to well inside
   for_cells_around(room, [&](std::size_t cell) {
     if (!turnable(cell) || regions()[cell] != regions()[freest] || !room.contains(grid_.center(cell))) return;
-    const double depth = std::min(depth_m(cell), config_.inside_m);
+    const double depth = std::min(room.boundary_distance(grid_.center(cell)), config_.inside_m);
     if (std::pair(depth, clearance_[cell]) <= std::pair(best_depth_m, clearance_[best])) return;
     best = cell;
     best_depth_m = depth;
   });
   return clearance_[best] >= std::min<double>(clearance_[freest], config_.comfort_m) ? best : freest;
+}
+
+std::size_t ClearanceMap::well_inside(const bim::Room& room, std::size_t freest) const {
+  // The open end of a corridor is a good place to walk through; without walls every side is open.
+  const bool is_open = room.walls.empty() && room.boundary_distance(grid_.center(freest)) < on_outline_m;
+  return is_open ? innermost(room, freest) : freest;
 }
 
 std::vector<std::size_t> ClearanceMap::target_cells(const bim::Room& room) const {
@@ -166,6 +169,11 @@ std::vector<Eigen::Vector2d> ClearanceMap::room_targets(const bim::Room& room) c
   std::vector<Eigen::Vector2d> points;
   for (const std::size_t cell : target_cells(room)) points.push_back(grid_.center(cell));
   return points;
+}
+
+Eigen::Vector2d ClearanceMap::inner_target(const bim::Room& room, const Eigen::Vector2d& target) const {
+  const std::optional<std::size_t> cell = grid_.find(target);
+  return cell ? grid_.center(innermost(room, *cell)) : target;
 }
 
 std::vector<Eigen::Vector2d> ClearanceMap::open_target() const {

@@ -312,6 +312,20 @@ TEST(WalkCoverage, ARoomIsEnteredWhereTheRobotIsWellInside) {
   EXPECT_EQ(coverage_of(building).on_route, 2);
 }
 
+// A kitchen with walls on three sides: its freest place lies where it is open to the room before it.
+TEST(WalkCoverage, ARoomWithAnOpenSideIsEntered) {
+  bim::Building building = row_of_rooms(1);
+  building.rooms.clear();
+  sim::add_room(building, "living", sim::rectangle({0.1, 0.1}, {3.9, 3.2}));
+  sim::add_room(building, "kitchen", sim::rectangle({0.1, 3.2}, {3.9, 4.9}));
+  for (bim::Room& room : building.rooms) room.walls = {0};
+  const sim::MultiStoreyPlanner space(building);
+  EXPECT_NEAR(space.storey(0).room_targets(building.rooms[1]).front().y(), 3.2, 0.06);
+  const WalkCoverage walk = walk_coverage(space, plan_route(space, {}, {}, {}));
+  EXPECT_EQ(walk.on_route, 2);
+  EXPECT_TRUE(left_out_lines(walk).empty());
+}
+
 // In rooms this narrow the places to turn round lie so near to each other that to go through both is no walk.
 TEST(WalkCoverage, AWalkOfLessThanAMetreIsNone) {
   EXPECT_GT(coverage_of(open_rooms(6.0, 0.65)).planned_m, 8.0);
