@@ -90,8 +90,8 @@ class ClearanceMap {
   /// piece that leads out of the room, of such the one with the most floor in it: the outline of a room around a shaft
   /// holds the shaft.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
-  /// In the piece of floor of such a point the freest place of those furthest inside the room, up to inside_m; the point
-  /// itself where that is freer, and freer than comfort asks.
+  /// In the piece of floor of such a point the freest place of those furthest inside the room, up to inside_m; the
+  /// point itself where that is freer, and freer than comfort asks.
   [[nodiscard]] Eigen::Vector2d inner_target(const bim::Room& room, const Eigen::Vector2d& target) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.
