@@ -28,7 +28,9 @@ Command PurePursuit::update(const Pose& X_WR, std::int64_t tick) {
   if (done()) return {};
   check_progress(X_WR, tick);
 
-  return jittered(waypoints_[next_].stairs ? on_stairs(X_WR) : on_level(X_WR), tick);
+  if (waypoints_[next_].stairs) return jittered(on_stairs(X_WR), tick);
+  if (goes_back(X_WR, static_cast<double>(tick) * step_s)) return jittered(to_turning_place(X_WR), tick);
+  return jittered(on_level(X_WR), tick);
 }
 
 Command PurePursuit::on_level(const Pose& X_WR) {
@@ -39,6 +41,26 @@ Command PurePursuit::on_level(const Pose& X_WR) {
   const double gain = turning_ ? config_.turn_gain : config_.steer_gain;
   command.yaw_rate = std::clamp(gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
   command.vx = turning_ ? 0.0 : walking_speed(error, X_WR.t.head<2>());
+  return command;
+}
+
+bool PurePursuit::goes_back(const Pose& X_WR, double t_s) {
+  const bool stuck = turning_ && progress_.idle_s(t_s) > config_.back_after_s;
+  if (t_s >= back_until_s_ && stuck && times_back_ < config_.back_times) {
+    ++times_back_;
+    back_until_s_ = t_s + config_.back_most_s;
+  }
+  if ((waypoints_[next_ - 1].p_W - X_WR.t).head<2>().norm() < config_.back_near_m) back_until_s_ = t_s;
+  if (t_s < back_until_s_) progress_.begin_again(t_s);
+  return t_s < back_until_s_;
+}
+
+Command PurePursuit::to_turning_place(const Pose& X_WR) const {
+  const Eigen::Vector2d ahead = (waypoints_[next_ - 1].p_W - X_WR.t).head<2>();
+  const double error = wrap_angle(std::atan2(ahead.y(), ahead.x()) - X_WR.yaw());
+  Command command;
+  command.yaw_rate = std::clamp(config_.turn_gain * error, -config_.yaw_rate_max, config_.yaw_rate_max);
+  command.vx = std::abs(error) > config_.turn_end ? 0.0 : config_.back_mps;
   return command;
 }
 
@@ -69,6 +91,8 @@ void PurePursuit::skip_reached(const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d sole_W = p_W - Eigen::Vector3d(0.0, 0.0, config_.standing_height_m);
   while (!done() && reached(sole_W)) {
     ++next_;
+    times_back_ = 0;
+    back_until_s_ = 0.0;
     if (!done() && waypoints_[next_].stairs) turning_ = true;
   }
 }

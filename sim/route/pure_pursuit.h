@@ -35,8 +35,13 @@ struct PurePursuitConfig {
   double stairs_aligned = 0.1;     ///< rad, heading error with which a flight is entered,
   double stairs_centred_m = 0.05;  ///< and distance from its line
   double landing_m = 0.05;         ///< a segment over stairs that falls by no more is a landing
-  double side_gain = 1.5;          ///< 1/s, sideways back to that line
-  double side_mps = 0.2;           ///< highest speed of that
+  double back_after_s = 3.0;  ///< assumed: without progress in a turn in place it goes back to where that was planned,
+  double back_mps = 0.2;      ///< as fast as this,
+  double back_near_m = 0.08;  ///< until it is this near,
+  double back_most_s = 8.0;   ///< or for so long,
+  int back_times = 2;         ///< at most so often on a segment
+  double side_gain = 1.5;     ///< 1/s, sideways back to that line
+  double side_mps = 0.2;      ///< highest speed of that
   double reached_height_m = 0.6;   ///< a waypoint of another level is not reached, however near in the plane
   double standing_height_m = 0.5;  ///< of the base above the floor
   double jitter_s = 0.5;           ///< one draw of the jitter
@@ -63,6 +68,9 @@ class PurePursuit {
   [[nodiscard]] double heading_error(const Pose& X_WR) const;
   [[nodiscard]] Command on_stairs(const Pose& X_WR);
   [[nodiscard]] Command on_level(const Pose& X_WR);
+  /// A turn in place begins as far from its waypoint as reached_m, and may meet a wall where there is little room.
+  [[nodiscard]] bool goes_back(const Pose& X_WR, double t_s);
+  [[nodiscard]] Command to_turning_place(const Pose& X_WR) const;
   [[nodiscard]] Eigen::Vector2d goal(const Eigen::Vector2d& p_W) const;
   [[nodiscard]] double walking_speed(double heading_error, const Eigen::Vector2d& p_W) const;
   [[nodiscard]] Command jittered(Command command, std::int64_t tick) const;
@@ -72,6 +80,8 @@ class PurePursuit {
   Stream jitter_;
   std::size_t next_ = 1;
   bool turning_ = false;
+  int times_back_ = 0;  ///< on the segment to next_
+  double back_until_s_ = 0.0;
   SpeedProfile speeds_;
   Progress progress_;
 };

@@ -22,6 +22,10 @@ class Progress {
   /// True when the robot is stalled at time t_s, with left_m to the end of `segment` and `error` (rad) off the
   /// commanded heading.
   [[nodiscard]] bool stalled(std::size_t segment, bool stairs, double left_m, double error, double t_s);
+  /// Since the last progress.
+  [[nodiscard]] double idle_s(double t_s) const { return t_s - since_s_; }
+  /// Counts from this time on.
+  void begin_again(double t_s) { since_s_ = t_s; }
 
  private:
   ProgressConfig config_;

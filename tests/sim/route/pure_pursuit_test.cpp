@@ -78,6 +78,25 @@ TEST(PurePursuit, ReportsAStallAgainstAWall) {
   }
 }
 
+// In a bathroom of 1.5 m by 2.2 m it turns round beside the door, drifts, and meets the jamb with its tail.
+TEST(PurePursuit, GetsFreeOfAWallThatItTurnsAgainst) {
+  const auto box = [](double x0, double y0, double x1, double y1) {
+    CollisionBox wall;
+    wall.X_WB = Pose::from_xyz_yaw({0.5 * (x0 + x1), 0.5 * (y0 + y1), 1.0}, 0.0);
+    wall.half = {0.5 * (x1 - x0), 0.5 * (y1 - y0), 1.0};
+    return wall;
+  };
+  // West, south and north wall, the wall with the door from y = -0.40 to 0.36, a basin.
+  const std::vector<CollisionBox> walls = {box(-1.56, -0.7, -1.46, 1.6), box(-1.46, -0.72, 0.0, -0.6),
+                                           box(-1.46, 1.58, 0.0, 1.7),   box(0.0, -1.4, 0.12, -0.40),
+                                           box(0.0, 0.36, 0.12, 1.6),    box(-1.46, 0.27, -0.98, 0.72)};
+  Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 1.0}, std::numbers::pi), flat, walls);
+  PurePursuit pursuit(at_speed(0.6), on_floor({{1.0, 0.0}, {0.3, 0.0}, {-0.5, 0.03}, {0.3, -0.02}, {0.6, -0.9}}, 0.0),
+                      1);
+  for (std::int64_t tick = 0; !pursuit.done() && tick < 30000; ++tick) robot.step(pursuit.update(robot.X_WR(), tick));
+  EXPECT_TRUE(pursuit.done());
+}
+
 TEST(PurePursuit, ARouteOfOnePointIsDone) {
   PurePursuit pursuit(at_speed(0.6), on_floor({{0.0, 0.0}}, 0.0), 1);
   EXPECT_TRUE(pursuit.done());
