@@ -39,11 +39,16 @@ std::optional<Mesh> to_mesh(const Solid& solid, double grid_m) {
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
   if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;
-  pmp::orient_to_bound_a_volume(mesh);
+  try {
+    pmp::orient_to_bound_a_volume(mesh);
+  } catch (const std::exception&) {  // flat at its lowest corner: where CGAL checks its own conditions
+    return std::nullopt;
+  }
   return mesh;
 }
 
-Solid to_solid(const Mesh& mesh) {
+/// None where a face is no triangle, as corefinement may leave one where two surfaces almost touch.
+std::optional<Solid> to_solid(const Mesh& mesh) {
   Solid solid;
   std::vector<int> index(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), -1);
   for (const auto vertex : mesh.vertices()) {
@@ -54,8 +59,11 @@ Solid to_solid(const Mesh& mesh) {
   for (const auto face : mesh.faces()) {
     Eigen::Vector3i triangle;
     int corner = 0;
-    for (const auto vertex : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+    for (const auto vertex : CGAL::vertices_around_face(mesh.halfedge(face), mesh)) {
+      if (corner == 3) return std::nullopt;
       triangle[corner++] = index[static_cast<std::size_t>(vertex)];
+    }
+    if (corner != 3) return std::nullopt;
     solid.triangles.push_back(triangle);
   }
   return solid;

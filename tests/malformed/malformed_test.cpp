@@ -17,6 +17,7 @@
 #include "bim/random/stream.h"
 #include "tests/data.h"
 #include "tests/malformed/readers.h"
+#include "tests/sanitized.h"
 
 namespace plumbline {
 namespace {
@@ -101,10 +102,8 @@ class Malformed : public ::testing::TestWithParam<MalformedReader> {
  protected:
   /// A length that is believed ends as an exception, not as a machine without memory. Sanitizers map more than that.
   void SetUp() override {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     const rlimit limit{rlim_t{4} << 30U, rlim_t{4} << 30U};
-    ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
-#endif
+    if (!is_sanitized) ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
   }
 
   /// What ends the process stays behind in a file, for ci/fuzz.
