@@ -99,7 +99,7 @@ constexpr std::array<FileRow, 20> run_files = {{
      "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file"},
     {"results.json",
      "scores and gates; it appears last, so that its directory is complete. `building.moved_by_m`: added to the "
-     "coordinates of a building in map coordinates"},
+     "coordinates of a building in map coordinates; `shift_ns`: added to the stamps of an outside estimate, ns"},
     {"junit.xml", "gates and methods as JUnit test cases"},
     {"<method>.tum",
      "the causal trajectory: each pose as first given, one a scan; SLAM scores use it; X_MR of SLAM, X_WR of a "

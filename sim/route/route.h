@@ -91,7 +91,7 @@ class ClearanceMap {
   /// holds the shaft.
   [[nodiscard]] std::vector<Eigen::Vector2d> room_targets(const bim::Room& room) const;
   /// In the piece of floor of such a point the freest place of those furthest inside the room, up to inside_m; the
-  /// point itself where that is freer, and freer than comfort asks.
+  /// point itself where that place has less clearance than it and less than is comfortable.
   [[nodiscard]] Eigen::Vector2d inner_target(const bim::Room& room, const Eigen::Vector2d& target) const;
   /// The cell of the first of these; where there is none, that with the most clearance, which is too little; none where
   /// no cell's centre lies in the room.
@@ -117,8 +117,8 @@ class ClearanceMap {
   template <class Use>
   void for_cells_around(const bim::Room& room, const Use& use) const;
   [[nodiscard]] std::vector<std::size_t> target_cells(const bim::Room& room) const;
-  /// The place in a room for the freest one of a piece of floor, which may lie on the edge of one without walls.
   [[nodiscard]] std::size_t innermost(const bim::Room& room, std::size_t freest) const;
+  /// The place in a room for the freest one of a piece of floor, which may lie on the edge of one without walls.
   [[nodiscard]] std::size_t well_inside(const bim::Room& room, std::size_t freest) const;
   /// Removes floor that is enclosed by hollow obstacles, such as the inside of a cupboard.
   void close_pockets(const std::vector<Polygon2>& hollow_obstacles);

@@ -90,11 +90,16 @@ TEST(PurePursuit, GetsFreeOfAWallThatItTurnsAgainst) {
   const std::vector<CollisionBox> walls = {box(-1.56, -0.7, -1.46, 1.6), box(-1.46, -0.72, 0.0, -0.6),
                                            box(-1.46, 1.58, 0.0, 1.7),   box(0.0, -1.4, 0.12, -0.40),
                                            box(0.0, 0.36, 0.12, 1.6),    box(-1.46, 0.27, -0.98, 0.72)};
-  Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 1.0}, std::numbers::pi), flat, walls);
-  PurePursuit pursuit(at_speed(0.6), on_floor({{1.0, 0.0}, {0.3, 0.0}, {-0.5, 0.03}, {0.3, -0.02}, {0.6, -0.9}}, 0.0),
-                      1);
-  for (std::int64_t tick = 0; !pursuit.done() && tick < 30000; ++tick) robot.step(pursuit.update(robot.X_WR(), tick));
-  EXPECT_TRUE(pursuit.done());
+  const auto walks_out = [&](int times_back) {
+    PurePursuitConfig config = at_speed(0.6);
+    config.back_times = times_back;
+    Robot robot(Pose::from_xyz_yaw({1.0, 0.0, 1.0}, std::numbers::pi), flat, walls);
+    PurePursuit pursuit(config, on_floor({{1.0, 0.0}, {0.3, 0.0}, {-0.5, 0.03}, {0.3, -0.02}, {0.6, -0.9}}, 0.0), 1);
+    for (std::int64_t tick = 0; !pursuit.done() && tick < 30000; ++tick) robot.step(pursuit.update(robot.X_WR(), tick));
+    return pursuit.done();
+  };
+  EXPECT_TRUE(walks_out(PurePursuitConfig().back_times));
+  EXPECT_THROW(static_cast<void>(walks_out(0)), ScenarioFailure);
 }
 
 TEST(PurePursuit, ARouteOfOnePointIsDone) {
