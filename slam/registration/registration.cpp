@@ -30,6 +30,21 @@ void leave_open(Normal6& normal, const Observability& seen) {
   normal.g = seen.kept.transpose() * normal.g;
 }
 
+/// Adds a translation to the degenerate directions, as far as it is none of them.
+void add_degenerate(Observability& seen, const Eigen::Vector3d& direction_R) {
+  Vector6d direction = Vector6d::Zero();
+  direction.head<3>() = direction_R;
+  direction = seen.kept * direction;
+  direction.tail<3>().setZero();
+  constexpr double least = 0.5;  // it is one of them but for this
+  if (direction.norm() < least) return;
+  direction.normalize();
+  const Matrix6d part = direction * direction.transpose();
+  seen.kept = seen.kept * (Matrix6d::Identity() - part);
+  seen.degenerate += part;
+  seen.degenerate_directions.push_back(direction);
+}
+
 }  // namespace
 
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
@@ -152,10 +167,12 @@ Observability observability(std::span<const Surfel> surfels, const SurfelMap& ma
 Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                    const std::optional<PosePrior>& prior, const RegistrationConfig& config,
                    const AdditionalFactors& additional, double degenerate_sigma_m, const std::optional<Pose>& expected,
-                   const AdditionalFactors& where_degenerate) {
+                   const AdditionalFactors& where_degenerate, const std::optional<Eigen::Vector3d>& moving_R) {
   Registration result;
   result.X_MR = start;
-  const Observability seen = observability(surfels, map, start, config);
+  result.moving_R = moving_R;
+  Observability seen = observability(surfels, map, start, config);
+  if (moving_R) add_degenerate(seen, *moving_R);
   result.least_eigenvalue = seen.least_eigenvalue;
   result.degenerate_directions = static_cast<int>(seen.degenerate_directions.size());
   result.open = seen.degenerate;
@@ -167,7 +184,8 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
     normal = linearize(surfels, map, result.X_MR, config);
     if (!seen.degenerate_directions.empty()) leave_open(normal, seen);
     if (additional) {
-      const Normal6 terms = additional(result.X_MR);
+      Normal6 terms = additional(result.X_MR);
+      if (moving_R) leave_open(terms, seen);
       normal.h += terms.h;
       normal.g += terms.g;
     }
@@ -188,7 +206,7 @@ Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const 
   }
   if (!seen.degenerate_directions.empty()) {
     Matrix6d known = prior ? prior->information : Matrix6d(Matrix6d::Zero());
-    if (additional) known += additional(result.X_MR).h;
+    if (additional && !moving_R) known += additional(result.X_MR).h;
     constexpr double known_m = 0.015;  // four edges of 3 cm; a stray one or two tell nothing
     for (const Vector6d& direction : seen.degenerate_directions)
       if (direction.dot(known * direction) * known_m * known_m < 1.0) result.unobserved.push_back(direction);

@@ -81,6 +81,7 @@ struct Registration {
   int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
   int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything ...
   std::vector<Vector6d> unobserved;          ///< ... as unit increments of X_MR, before a correlation
+  std::optional<Eigen::Vector3d> moving_R;   ///< a degenerate translation: what faces it moves, see least_supported()
   std::optional<CorrelatedStep> correlated;  ///< where they were told by an earlier keyframe
   Vector6d sweep_twist = Vector6d::Zero();   ///< by which the scan's deskewing was corrected, see sweep_twist()
   int iterations = 0;
@@ -123,12 +124,14 @@ struct Observability {
 /// directions that are degenerate at the start surfels count for nothing: what they pull along their own surfaces would
 /// hold the robot where it was. There the pose is kept to `expected`, else the start, within degenerate_sigma_m
 /// (rotations: at the surfels' median distance), unless prior or `additional` know better, or `where_degenerate`, whose
-/// factors count in these directions alone. They leave them unobserved: whoever gives them is not sure of them.
+/// factors count in these directions alone. They leave them unobserved: whoever gives them is not sure of them. The
+/// translation `moving_R` (unit vector) counts as degenerate, and `additional` tells nothing of it either.
 [[nodiscard]] Registration align(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& start,
                                  const std::optional<PosePrior>& prior, const RegistrationConfig& config,
                                  const AdditionalFactors& additional = {}, double degenerate_sigma_m = 0.1,
                                  const std::optional<Pose>& expected = std::nullopt,
-                                 const AdditionalFactors& where_degenerate = {});
+                                 const AdditionalFactors& where_degenerate = {},
+                                 const std::optional<Eigen::Vector3d>& moving_R = std::nullopt);
 
 /// Adds a point at arm_M from the robot, displaced by e: weighted information W and W e, axes of M.
 void add_point(Normal6& sum, const Eigen::Vector3d& arm_M, const Eigen::Matrix3d& weight,
