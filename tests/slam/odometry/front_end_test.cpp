@@ -345,41 +345,6 @@ TEST(FrontEnd, AFastVehicleIsFollowedAgainAfterALoss) {
   }
 }
 
-/// People who walk along with a robot, as round columns about L: returns behind them come from them.
-void put_in_a_crowd(Scan& scan) {
-  constexpr double radius_m = 0.2, top_m = 1.2;
-  for (int who = 0; who < 12; ++who) {
-    const double phase = 2.4 * who, x = 0.7 * (who - 5.5) + 0.4 * std::sin(0.8 * seconds(scan.stamp) + phase);
-    const double y = (who % 2 == 0 ? 0.5 : -0.5) * (1.2 + 0.5 * std::cos(phase));
-    const double away2 = x * x + y * y - radius_m * radius_m;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double* const p = scan.point_L[i].data();
-      // Where the ray enters the column, as a share of its length: a share^2 - 2 b share + away2 = 0.
-      const double b = p[0] * x + p[1] * y;
-      if (b <= 0.0) continue;
-      const double a = p[0] * p[0] + p[1] * p[1], root2 = b * b - a * away2;
-      if (root2 <= 0.0) continue;
-      const double share = (b - std::sqrt(root2)) / a;
-      if (share >= 1.0 || share * p[2] > top_m) continue;
-      scan.range_m[i] *= share;
-      scan.point_L[i] *= share;
-    }
-  }
-}
-
-// Most of what faces the way walks along, each at a speed of its own; the wheels know the way to a half per cent.
-TEST(FrontEnd, OdometryHoldsInACrowd) {
-  const std::vector<Eigen::Vector2d> way = {{5.0, 1.5}, {35.0, 1.5}};
-  synthetic::WalkConfig walk;
-  walk.speed_mps = 1.2;
-  walk.duration_s = 6.0;
-  walk.odometry_scale = 1.005;
-  walk.odometry_sigma = walk.odometry_yaw_sigma = 0.001;
-  Walked among{way, walk, synthetic::walk(synthetic::one_room(40.0, 3.0), way, walk)};
-  for (Scan& scan : among.recording.scans) put_in_a_crowd(scan);
-  EXPECT_LT(follow(among, 1, true, {}).worst_m, 0.3);
-}
-
 // A robot that turns by 60 degrees from scan to scan takes its room for itself turned round: measured, it is then off
 // by metres from 14.2 s on, and says so at once.
 TEST(FrontEnd, SaysThatAStepMayBeAnAlias) {

@@ -10,21 +10,11 @@
 #include "bim/random/stream.h"
 #include "slam/registration/rough_points.h"
 #include "slam/registration/vgicp.h"
+#include "tests/slam/registration/house_surfels.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
-
-std::vector<Surfel> surfels_at(const Pose& X_WR, double range_sigma_m, std::uint64_t seed) {
-  synthetic::WalkConfig config;
-  config.seed = seed;
-  config.range_sigma_m = range_sigma_m;
-  MotionBuffer motion;
-  motion.add({0, Pose{}});
-  return make_surfels(
-      deskew(synthetic::standing_scan(synthetic::corridor_house(), X_WR, config), motion, synthetic::calibration()),
-      {});
-}
 
 Vector6d random_twist(const Stream& random, std::uint64_t k, double metres, double radians) {
   Vector6d xi;

@@ -7,29 +7,18 @@
 #include <optional>
 
 #include "bim/random/stream.h"
-#include "tests/slam/synthetic.h"
+#include "tests/slam/registration/house_surfels.h"
 
 namespace plumbline::slam {
 namespace {
 
 constexpr double noise_m = 0.012;
 
-std::vector<Surfel> surfels_at(const Pose& X_WR, std::uint64_t seed) {
-  synthetic::WalkConfig config;
-  config.seed = seed;
-  config.range_sigma_m = noise_m;
-  MotionBuffer motion;
-  motion.add({0, Pose{}});
-  return make_surfels(
-      deskew(synthetic::standing_scan(synthetic::corridor_house(), X_WR, config), motion, synthetic::calibration()),
-      {});
-}
-
 /// Of scans from one place, the map among them.
 class Support : public ::testing::Test {
  protected:
   Support() {
-    for (std::uint64_t seed = 100; seed < 105; ++seed) map_.add(surfels_at(X_WR_, seed), Pose{});
+    for (std::uint64_t seed = 100; seed < 105; ++seed) map_.add(surfels_at(X_WR_, noise_m, seed), Pose{});
   }
   [[nodiscard]] LeastSupported of(const std::vector<Surfel>& surfels) const {
     return least_supported(surfels, map_, Pose{}, {}, align(surfels, map_, Pose{}, std::nullopt, {}).residual_m);
@@ -40,7 +29,7 @@ class Support : public ::testing::Test {
 };
 
 TEST_F(Support, OfWhatStandsIsMuchInAllDirections) {
-  for (std::uint64_t seed = 2; seed < 12; ++seed) EXPECT_GT(of(surfels_at(X_WR_, seed)).share, 0.45) << seed;
+  for (std::uint64_t seed = 2; seed < 12; ++seed) EXPECT_GT(of(surfels_at(X_WR_, noise_m, seed)).share, 0.45) << seed;
 }
 
 // Three of four surfels that face a direction have gone on by what people walk from scan to scan, or by more.
@@ -50,7 +39,7 @@ TEST_F(Support, IsLeastWhereWhatFacesADirectionMoves) {
     const Eigen::Vector3d along_R =
         X_WR_.q.conjugate() * (k % 2 == 0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY());
     const double way_m = 0.1 + 0.3 * random.uniform(k, 0);
-    std::vector<Surfel> surfels = surfels_at(X_WR_, 2 + k);
+    std::vector<Surfel> surfels = surfels_at(X_WR_, noise_m, 2 + k);
     std::size_t facing = 0;
     for (Surfel& surfel : surfels)
       if (std::abs(surfel.normal_R.dot(along_R)) > 0.7 && facing++ % 4 != 0) surfel.mean_R += way_m * along_R;
@@ -64,7 +53,7 @@ TEST_F(Support, IsLeastWhereWhatFacesADirectionMoves) {
 // A direction that nothing faces is degenerate; no share is low there.
 TEST_F(Support, TellsNothingOfDirectionsThatNothingFaces) {
   std::vector<Surfel> floor;
-  for (const Surfel& surfel : surfels_at(X_WR_, 2))
+  for (const Surfel& surfel : surfels_at(X_WR_, noise_m, 2))
     if (surfel.normal_R.z() > 0.99) floor.push_back(surfel);
   ASSERT_GT(floor.size(), 10U);
   EXPECT_GT(of(floor).share, 0.6);
