@@ -132,11 +132,11 @@ in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and m
 
 - `<method>.hypotheses.jsonl`, a line for each scan: `stamp_ns`, `state`, `hypotheses` and, of some scans, `particles`, each
   `[x, y, yaw, weight]` in W. A hypothesis has `mass` (share, 0 to 1), `room`, `pose` (X_WR: x, y, z, qx, qy, qz, qw),
-  `covariance` (3 x 3 of x, y, yaw, row by row, m and rad) and `walls`: `faces`, ids of the plan's faces, and `p0` and
-  `p1`, the ends of the observed patch in R, m.
+  `covariance` (3 x 3 of x, y, yaw, row by row, m and rad) and `walls`. A wall has `faces`, ids of the plan's faces, and
+  `p0` and `p1`, the ends of the observed patch in R, m.
 - `<method>.estimate.json`: `frame` (`map` or `world`); `planes`: `n` and `d` with n.p + d = 0, ends `p0` and `p1`,
-  heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`; `loops`:
-  `from_ns`, `to_ns`, and `pose`, that of the robot at `to_ns` in its frame at `from_ns`. All in m.
+  heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`. Its `loops`
+  have `from_ns`, `to_ns`, and `pose`, that of the robot at `to_ns` in its frame at `from_ns`. All in m.
 )md" + "\n## A sweep: `plumbline sweep`\n\n" +
          file_table(Kind::sweep);
 }
