@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "bim/geometry/pose.h"
@@ -20,5 +21,11 @@ struct LeastSupported {
 /// of it. Where faces move, as those of a crowd or of traffic, registration finds a pose that some of them agree on.
 [[nodiscard]] LeastSupported least_supported(std::span<const Surfel> surfels, const SurfelMap& map, const Pose& X_MR,
                                              const RegistrationConfig& config, double residual_m);
+
+/// The translation (unit vector of R) that odometry must tell, where `found` is led by what moves: few of the surfels
+/// that face it meet the map, or not many and `found` is off from `expected` by more than odometry's sigma_m explains.
+[[nodiscard]] std::optional<Eigen::Vector3d> moving_direction(std::span<const Surfel> surfels, const SurfelMap& map,
+                                                              const Registration& found, const Pose& expected,
+                                                              double sigma_m, const RegistrationConfig& config);
 
 }  // namespace plumbline::slam

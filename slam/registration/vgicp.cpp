@@ -24,10 +24,6 @@ constexpr double lattice_slack = 2.5;
 /// rings at 5 Hz, whose scans have 20,000: time grows with their number, accuracy does not.
 constexpr std::size_t most_registered = 5000;
 
-/// Share of the surfels facing a direction below which odometry tells the motion there: what they face moves. Chosen on
-/// crowds in a corridor and a highway (medians 0.07 to 0.17) and three walks without (5th percentiles 0.36 to 0.72).
-constexpr double least_support = 0.45;
-
 /// Of a scan's rough points so many are matched and mapped: assumed.
 constexpr std::size_t most_rough = 1000;
 
@@ -212,12 +208,12 @@ Registration VgicpOdometry::align_surfaces(const Pose& start, const std::optiona
         align(scan_.registered, maps_.front(), before, prior, scan_.fine, edges_near(before), odometry.sigma_m, start);
     if ((result.X_MR.t - before.t).norm() < 0.1 * config_.edges.leaf_m) break;
   }
-  if (!config_.odometry_prior || !odometry.valid) return result;
-  const LeastSupported least =
-      least_supported(scan_.registered, maps_.front(), result.X_MR, scan_.fine, result.residual_m);
-  if (least.share >= least_support) return result;
+  if (!config_.odometry_prior || !odometry.valid || !prior) return result;
+  const std::optional<Eigen::Vector3d> moving_R =
+      moving_direction(scan_.registered, maps_.front(), result, prior->X_MR, odometry.sigma_m, scan_.fine);
+  if (!moving_R) return result;
   return align(scan_.registered, maps_.front(), start, prior, scan_.fine, edges_near(start), odometry.sigma_m, start,
-               {}, least.direction_R);
+               {}, moving_R);
 }
 
 std::vector<double> VgicpOdometry::rough_reaches(const Pose& X_MR) const {

@@ -50,6 +50,31 @@ TEST_F(Support, IsLeastWhereWhatFacesADirectionMoves) {
   }
 }
 
+// Five of nine surfels that face the way have gone on: odometry tells who moved.
+TEST_F(Support, BetweenTheLimitsOdometryIsHeard) {
+  constexpr double sigma_m = 0.005;
+  const Eigen::Vector3d along_R = X_WR_.q.conjugate() * Eigen::Vector3d::UnitX();
+  for (std::uint64_t seed = 2; seed < 12; ++seed) {
+    std::vector<Surfel> surfels = surfels_at(X_WR_, noise_m, seed);
+    std::size_t facing = 0;
+    for (Surfel& surfel : surfels)
+      if (std::abs(surfel.normal_R.dot(along_R)) > 0.7 && facing++ % 9 < 5) surfel.mean_R += 0.3 * along_R;
+    const double share = least_supported(surfels, map_, Pose{}, {}, noise_m).share;
+    ASSERT_GT(share, 0.45) << seed;
+    ASSERT_LT(share, 0.6) << seed;
+    Registration found;
+    found.residual_m = noise_m;
+    const auto moving_R = [&](double off_m) {
+      return moving_direction(surfels, map_, found, {found.X_MR.q, off_m * along_R}, sigma_m, {});
+    };
+    EXPECT_FALSE(moving_R(5.0 * sigma_m)) << seed;
+    for (const double off_m : {-8.0 * sigma_m, 8.0 * sigma_m}) {
+      ASSERT_TRUE(moving_R(off_m)) << seed;
+      EXPECT_GT(std::abs(moving_R(off_m)->dot(along_R)), 0.9) << seed;
+    }
+  }
+}
+
 // A direction that nothing faces is degenerate; no share is low there.
 TEST_F(Support, TellsNothingOfDirectionsThatNothingFaces) {
   std::vector<Surfel> floor;
