@@ -23,9 +23,11 @@ struct LeastSupported {
                                              const RegistrationConfig& config, double residual_m);
 
 /// The translation (unit vector of R) that odometry must tell, where `found` is led by what moves: few of the surfels
-/// that face it meet the map, or not many and `found` is off from `expected` by more than odometry's sigma_m explains.
+/// that face it meet the map; or, among_movers, not many and `found` is off from `expected` by more than odometry's
+/// sigma_m explains. Without movers such an odometry slips.
 [[nodiscard]] std::optional<Eigen::Vector3d> moving_direction(std::span<const Surfel> surfels, const SurfelMap& map,
                                                               const Registration& found, const Pose& expected,
-                                                              double sigma_m, const RegistrationConfig& config);
+                                                              double sigma_m, const RegistrationConfig& config,
+                                                              bool among_movers);
 
 }  // namespace plumbline::slam

@@ -24,6 +24,10 @@ constexpr double lattice_slack = 2.5;
 /// rings at 5 Hz, whose scans have 20,000: time grows with their number, accuracy does not.
 constexpr std::size_t most_registered = 5000;
 
+/// Where things move, so many of the latest scans show it, each counting by that much less than the next: 75 to 88 % do
+/// in five crowds, at most 7 % on five walks without. Between them, assumed.
+constexpr double least_moving_share = 0.3, moving_memory = 0.9;
+
 /// Of a scan's rough points so many are matched and mapped: assumed.
 constexpr std::size_t most_rough = 1000;
 
@@ -130,6 +134,7 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
   stamp_ = scan.stamp;
+  moving_share_ += (1.0 - moving_memory) * ((result.moving_R ? 1.0 : 0.0) - moving_share_);
   is_measured_ = measured || result.unobserved_directions == 0;
   if (config_.correlation && (!ready() || is_new_view(result.X_MR))) scan_.returns_R = returns_of(scan);
   return result;
@@ -210,7 +215,8 @@ Registration VgicpOdometry::align_surfaces(const Pose& start, const std::optiona
   }
   if (!config_.odometry_prior || !odometry.valid || !prior) return result;
   const std::optional<Eigen::Vector3d> moving_R =
-      moving_direction(scan_.registered, maps_.front(), result, prior->X_MR, odometry.sigma_m, scan_.fine);
+      moving_direction(scan_.registered, maps_.front(), result, prior->X_MR, odometry.sigma_m, scan_.fine,
+                       moving_share_ >= least_moving_share);
   if (!moving_R) return result;
   return align(scan_.registered, maps_.front(), start, prior, scan_.fine, edges_near(start), odometry.sigma_m, start,
                {}, moving_R);
