@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace plumbline::slam {
 
@@ -114,34 +115,59 @@ std::optional<double> turn_between(const std::vector<double>& before, const std:
   return (from + static_cast<int>(best) + vertex(costs[best - 1], costs[best], costs[best + 1])) * bin_rad;
 }
 
-/// Of a pair of scans: bins before that are seen now, too, and how far each moves on by odometry, in bins.
+constexpr int about = 3;  ///< bins either way of a turn that is sought
+
+/// Logarithms of ranges by azimuth, with as much of the other end at either end as a shift by `about` bins reaches.
+class WrappedProfile {
+ public:
+  explicit WrappedProfile(const std::vector<double>& log) {
+    for (int k = 0; k < size; ++k) {
+      const double value = log[static_cast<std::size_t>(wrapped(k - about))];
+      values_[static_cast<std::size_t>(k)] = std::isfinite(value) ? value : nothing;
+    }
+  }
+  /// From the bin `about` before this one, of 0 to bins - 1.
+  [[nodiscard]] const double* before(int bin) const { return values_.data() + bin; }
+
+ private:
+  static constexpr int size = bins + 2 * about + 1;
+  static constexpr double nothing = -1e12;  ///< differs from all
+  std::array<double, size> values_;
+};
+
+/// Of a pair of scans: bins before that are seen now, too, and where each moves on to by odometry, in bins.
 struct PredictedTurn {
-  std::vector<double> before;  ///< logarithms of ranges
-  std::vector<double> to_bin;
+  struct Seen {
+    double before = 0.0;  ///< logarithm of its range
+    double to_bin = 0.0;
+  };
+  std::vector<Seen> bins;
   double mean_rad = 0.0;
 };
 
-/// Mean difference where the sensor turned by so many bins more than predicted.
-double difference(const PredictedTurn& predicted, const std::vector<double>& now, int more) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < predicted.before.size(); ++k) {
-    const double at = predicted.to_bin[k] - more, left = std::floor(at), part = at - left;
-    const int bin = wrapped(static_cast<int>(left));
-    const double a = now[static_cast<std::size_t>(bin)], b = now[static_cast<std::size_t>(wrapped(bin + 1))];
-    const double seen = (1.0 - part) * a + part * b;
-    sum += std::isfinite(seen) ? std::min(std::abs(predicted.before[k] - seen), differs) : differs;
+using Differences = std::array<double, 2 * about + 1>;
+
+/// Mean differences where the sensor turned by `first`, `first` + 1, ... bins more than predicted.
+Differences differences_from(const PredictedTurn& predicted, const WrappedProfile& now, int first) {
+  Differences sums{};
+  for (const PredictedTurn::Seen& seen : predicted.bins) {
+    const double at = seen.to_bin - (first + about), left = std::floor(at), part = at - left;
+    const double* const range = now.before(wrapped(static_cast<int>(left)));
+    for (int more = 0; more < static_cast<int>(sums.size()); ++more) {
+      const double* const pair = range + (2 * about - more);
+      const double here = (1.0 - part) * pair[0] + part * pair[1];
+      sums[static_cast<std::size_t>(more)] += std::min(std::abs(seen.before - here), differs);
+    }
   }
-  return sum / static_cast<double>(predicted.before.size());
+  for (double& sum : sums) sum /= static_cast<double>(predicted.bins.size());
+  return sums;
 }
 
 /// By how much more than predicted the sensor turned, rad: within a few bins of `turn_rad`, where the scans differ
 /// least.
-double more_than(const PredictedTurn& predicted, const std::vector<double>& now, double turn_rad) {
-  constexpr int about = 3;
-  std::array<double, 2 * about + 1> differences{};
+double more_than(const PredictedTurn& predicted, const WrappedProfile& now, double turn_rad) {
   const int first = static_cast<int>(std::lround((turn_rad - predicted.mean_rad) / bin_rad)) - about;
-  for (std::size_t k = 0; k < differences.size(); ++k)
-    differences[k] = difference(predicted, now, first + static_cast<int>(k));
+  const Differences differences = differences_from(predicted, now, first);
   const auto best = std::min_element(differences.begin() + 1, differences.end() - 1);
   return (first + static_cast<int>(best - differences.begin()) + vertex(*(best - 1), *best, *(best + 1))) * bin_rad;
 }
@@ -198,18 +224,18 @@ ClockOffset::Place ClockOffset::place_at(Nanoseconds t) const {
   return {t, a.t_OL + part * (b.t_OL - a.t_OL), a.yaw + part * (b.yaw - a.yaw)};
 }
 
-std::vector<std::array<double, ClockOffset::candidates>> ClockOffset::yaws_of(
-    Nanoseconds time, const std::vector<double>& offset_s) const {
+ClockOffset::Yaws ClockOffset::yaws_of(Nanoseconds time, const std::vector<double>& offset_s) const {
   const auto [first, last] = std::minmax_element(offset_s.begin(), offset_s.end());
   const Nanoseconds start = time + std::llround(1e9 * *first) - most;
-  std::vector<double> grid(candidates + static_cast<std::size_t>(1e9 * (*last - *first) / candidate) + 2);
-  for (std::size_t k = 0; k < grid.size(); ++k) grid[k] = place_at(start + static_cast<Nanoseconds>(k) * candidate).yaw;
-  std::vector<std::array<double, candidates>> yaws(offset_s.size());
-  for (std::size_t bin = 0; bin < offset_s.size(); ++bin) {
-    const double at = 1e9 * (offset_s[bin] - *first) / candidate;
+  Yaws yaws;
+  yaws.grid.resize(candidates + static_cast<std::size_t>(1e9 * (*last - *first) / candidate) + 2);
+  for (std::size_t k = 0; k < yaws.grid.size(); ++k)
+    yaws.grid[k] = place_at(start + static_cast<Nanoseconds>(k) * candidate).yaw;
+  yaws.at.reserve(offset_s.size());
+  for (const double offset : offset_s) {
+    const double at = 1e9 * (offset - *first) / candidate;
     const auto k = static_cast<std::size_t>(at);
-    const double part = at - static_cast<double>(k);
-    for (std::size_t j = 0; j < candidates; ++j) yaws[bin][j] = (1.0 - part) * grid[k + j] + part * grid[k + j + 1];
+    yaws.at.push_back({k, at - static_cast<double>(k)});
   }
   return yaws;
 }
@@ -239,21 +265,27 @@ void ClockOffset::use(const Profile& before, const Profile& now) {
   if (!turn) return;
   if (*turn < *least - off_rad || *turn > *largest + off_rad) return;
   const int turned = static_cast<int>(std::lround(*turn / bin_rad));
-  const auto from_yaw = yaws_of(before.time, moved.time_s), to_yaw = yaws_of(now.time, now.offset_s);
+  const Yaws from_yaw = yaws_of(before.time, moved.time_s), to_yaw = yaws_of(now.time, now.offset_s);
+  std::vector<std::pair<std::size_t, std::size_t>> met;  // bins before and now
+  for (int bin = 0; bin < bins; ++bin) {
+    const auto here = static_cast<std::size_t>(bin), there = static_cast<std::size_t>(wrapped(bin - turned));
+    if (std::isfinite(before_log[here]) && std::isfinite(now_log[there])) met.emplace_back(here, there);
+  }
+  const WrappedProfile now_ring(now_log);
+  PredictedTurn predicted;
+  predicted.bins.resize(met.size());
   std::array<double, candidates> seen{}, told{};
   for (std::size_t j = 0; j < candidates; ++j) {
-    PredictedTurn predicted;
-    for (int bin = 0; bin < bins; ++bin) {
-      const auto here = static_cast<std::size_t>(bin), there = static_cast<std::size_t>(wrapped(bin - turned));
-      if (!std::isfinite(before_log[here]) || !std::isfinite(now_log[there])) continue;
-      const double turns = to_yaw[there][j] - from_yaw[here][j];
-      predicted.before.push_back(before_log[here]);
-      predicted.to_bin.push_back(bin - turns / bin_rad);
+    predicted.mean_rad = 0.0;
+    for (std::size_t k = 0; k < met.size(); ++k) {
+      const auto [here, there] = met[k];
+      const double turns = to_yaw(there, j) - from_yaw(here, j);
+      predicted.bins[k] = {before_log[here], static_cast<double>(here) - turns / bin_rad};
       predicted.mean_rad += turns;
     }
-    predicted.mean_rad /= static_cast<double>(predicted.before.size());
+    predicted.mean_rad /= static_cast<double>(met.size());
     told[j] = predicted.mean_rad;
-    seen[j] = told[j] + more_than(predicted, now_log, *turn);
+    seen[j] = told[j] + more_than(predicted, now_ring, *turn);
   }
   for (std::size_t j = 0; j < candidates; ++j) {
     seen2_[j] = forget * seen2_[j] + seen[j] * seen[j];

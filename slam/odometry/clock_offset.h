@@ -46,10 +46,22 @@ class ClockOffset {
     Nanoseconds farthest = 0;      ///< ... and at most
   };
 
-  [[nodiscard]] Place place_at(Nanoseconds t) const;
   /// Odometry's yaw where the returns of each bin were seen, at each offset that is tried, rad.
-  [[nodiscard]] std::vector<std::array<double, candidates>> yaws_of(Nanoseconds time,
-                                                                    const std::vector<double>& offset_s) const;
+  struct Yaws {
+    struct Between {
+      std::size_t k = 0;  ///< of the grid, at the first candidate
+      double part = 0.0;  ///< of the way to the next
+    };
+    [[nodiscard]] double operator()(std::size_t bin, std::size_t candidate) const {
+      const Between& b = at[bin];
+      return (1.0 - b.part) * grid[b.k + candidate] + b.part * grid[b.k + candidate + 1];
+    }
+    std::vector<double> grid;  ///< a candidate apart
+    std::vector<Between> at;   ///< index = bin
+  };
+
+  [[nodiscard]] Place place_at(Nanoseconds t) const;
+  [[nodiscard]] Yaws yaws_of(Nanoseconds time, const std::vector<double>& offset_s) const;
   void use(const Profile& before, const Profile& now);
   /// Sum of squares that is left between turns at an offset, rad^2.
   [[nodiscard]] double left_at(std::size_t candidate) const;
