@@ -132,10 +132,12 @@ bool SGraphsPlus::is_keyframe(const Pose& X_OR) const {
 // [bavle2023, Fig. 2]: walls, rooms, floors and loops of one keyframe, then the back end.
 void SGraphsPlus::add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output) {
   Stopwatch stopwatch;
-  std::vector<PlaneObservation> seen = planes_of(scan, odometry);
+  std::vector<PlaneObservation> seen = planes_of(scan);
   record_stage(output, stopwatch, "planes", digest_of(seen), "plane_segmentation");
   if (config_.parts.walls && (segmented_.empty() || scan.stamp - segmented_.back().stamp >= segmented_interval))
     segmented_.push_back(segmented_scan(scan, seen));
+  // Among vehicles their sides turn as the road does: as walls they would straighten the path.
+  if (odometry.moving_R) std::erase_if(seen, [](const PlaneObservation& o) { return o.vertical; });
 
   add_keyframe_vertex(scan.stamp, odometry, seen);
   if (config_.pose_weights == PoseWeights::fitness) {
@@ -175,16 +177,13 @@ void SGraphsPlus::keep_cloud(const DeskewedScan& scan) {
   keep_every_other(cloud_scans_);
 }
 
-// Where what faces a direction moves, so may what goes along it: the sides of vehicles that stand a little apart would
-// become one wall.
-std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan, const Registration& odometry) const {
+std::vector<PlaneObservation> SGraphsPlus::planes_of(const DeskewedScan& scan) const {
   std::vector<PlaneObservation> seen;
   if (config_.plane_source == PlaneSource::ransac)
     seen = ransac_planes(scan, config_.ransac, config_.planes, seed_);
   else
     seen = observe_planes(scan, config_.planes, config_.ransac_without_rings, seed_);
   if (!config_.parts.walls) std::erase_if(seen, [](const PlaneObservation& o) { return !is_floor(o); });
-  if (odometry.moving_R) std::erase_if(seen, [](const PlaneObservation& o) { return o.vertical; });
   return seen;
 }
 

@@ -164,7 +164,7 @@ class SGraphsPlus : public Method {
   void account_for_dead_reckoning(const Registration& odometry);
   [[nodiscard]] bool is_keyframe(const Pose& X_OR) const;
   void add_keyframe(const DeskewedScan& scan, const Registration& odometry, Output& output);
-  [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan, const Registration& odometry) const;
+  [[nodiscard]] std::vector<PlaneObservation> planes_of(const DeskewedScan& scan) const;
   /// Drops from what was seen the planes that are neither walls nor level, or contradict the odometry.
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
   /// Of a keyframe's step from the last one over `way_m`.

@@ -115,22 +115,22 @@ std::optional<double> turn_between(const std::vector<double>& before, const std:
   return (from + static_cast<int>(best) + vertex(costs[best - 1], costs[best], costs[best + 1])) * bin_rad;
 }
 
-constexpr int about = 3;  ///< bins either way of a turn that is sought
+constexpr int reach = 3;  ///< bins either way of a turn that is sought
 
-/// Logarithms of ranges by azimuth, with as much of the other end at either end as a shift by `about` bins reaches.
+/// Logarithms of ranges by azimuth, with as much of the other end at either end as a shift by `reach` bins reaches.
 class WrappedProfile {
  public:
   explicit WrappedProfile(const std::vector<double>& log) {
     for (int k = 0; k < size; ++k) {
-      const double value = log[static_cast<std::size_t>(wrapped(k - about))];
+      const double value = log[static_cast<std::size_t>(wrapped(k - reach))];
       values_[static_cast<std::size_t>(k)] = std::isfinite(value) ? value : nothing;
     }
   }
-  /// From the bin `about` before this one, of 0 to bins - 1.
+  /// From the bin `reach` before this one, of 0 to bins - 1.
   [[nodiscard]] const double* before(int bin) const { return values_.data() + bin; }
 
  private:
-  static constexpr int size = bins + 2 * about + 1;
+  static constexpr int size = bins + 2 * reach + 1;
   static constexpr double nothing = -1e12;  ///< differs from all
   std::array<double, size> values_;
 };
@@ -141,32 +141,32 @@ struct PredictedTurn {
     double before = 0.0;  ///< logarithm of its range
     double to_bin = 0.0;
   };
-  std::vector<Seen> bins;
+  std::vector<Seen> seen;
   double mean_rad = 0.0;
 };
 
-using Differences = std::array<double, 2 * about + 1>;
+using Differences = std::array<double, 2 * reach + 1>;
 
 /// Mean differences where the sensor turned by `first`, `first` + 1, ... bins more than predicted.
 Differences differences_from(const PredictedTurn& predicted, const WrappedProfile& now, int first) {
   Differences sums{};
-  for (const PredictedTurn::Seen& seen : predicted.bins) {
-    const double at = seen.to_bin - (first + about), left = std::floor(at), part = at - left;
+  for (const PredictedTurn::Seen& bin : predicted.seen) {
+    const double at = bin.to_bin - (first + reach), left = std::floor(at), part = at - left;
     const double* const range = now.before(wrapped(static_cast<int>(left)));
     for (int more = 0; more < static_cast<int>(sums.size()); ++more) {
-      const double* const pair = range + (2 * about - more);
+      const double* const pair = range + (2 * reach - more);
       const double here = (1.0 - part) * pair[0] + part * pair[1];
-      sums[static_cast<std::size_t>(more)] += std::min(std::abs(seen.before - here), differs);
+      sums[static_cast<std::size_t>(more)] += std::min(std::abs(bin.before - here), differs);
     }
   }
-  for (double& sum : sums) sum /= static_cast<double>(predicted.bins.size());
+  for (double& sum : sums) sum /= static_cast<double>(predicted.seen.size());
   return sums;
 }
 
 /// By how much more than predicted the sensor turned, rad: within a few bins of `turn_rad`, where the scans differ
 /// least.
 double more_than(const PredictedTurn& predicted, const WrappedProfile& now, double turn_rad) {
-  const int first = static_cast<int>(std::lround((turn_rad - predicted.mean_rad) / bin_rad)) - about;
+  const int first = static_cast<int>(std::lround((turn_rad - predicted.mean_rad) / bin_rad)) - reach;
   const Differences differences = differences_from(predicted, now, first);
   const auto best = std::min_element(differences.begin() + 1, differences.end() - 1);
   return (first + static_cast<int>(best - differences.begin()) + vertex(*(best - 1), *best, *(best + 1))) * bin_rad;
@@ -273,14 +273,14 @@ void ClockOffset::use(const Profile& before, const Profile& now) {
   }
   const WrappedProfile now_ring(now_log);
   PredictedTurn predicted;
-  predicted.bins.resize(met.size());
+  predicted.seen.resize(met.size());
   std::array<double, candidates> seen{}, told{};
   for (std::size_t j = 0; j < candidates; ++j) {
     predicted.mean_rad = 0.0;
     for (std::size_t k = 0; k < met.size(); ++k) {
       const auto [here, there] = met[k];
       const double turns = to_yaw(there, j) - from_yaw(here, j);
-      predicted.bins[k] = {before_log[here], static_cast<double>(here) - turns / bin_rad};
+      predicted.seen[k] = {before_log[here], static_cast<double>(here) - turns / bin_rad};
       predicted.mean_rad += turns;
     }
     predicted.mean_rad /= static_cast<double>(met.size());

@@ -173,7 +173,7 @@ class VgicpOdometry {
   ScanFeatures scan_;                       ///< last matched ...
   Nanoseconds stamp_ = 0;                   ///< ... its stamp ...
   bool is_measured_ = false;                ///< ... and whether its whole pose was measured
-  double moving_share_ = 0.0;               ///< of the latest scans, those with a direction that moves
+  double moving_share_ = 0.0;               ///< of the latest scans, those that showed something move
   double median_range_m_ = 0.0;             ///< low-pass filtered; 0 before the first scan
   std::optional<Nanoseconds> scale_stamp_;  ///< of the scan that it last followed
   double scale_ = 1.0;

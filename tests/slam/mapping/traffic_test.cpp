@@ -4,29 +4,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "slam/mapping/s_graphs_plus.h"
+#include "tests/slam/shortened_rays.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
 namespace {
 
-/// Share of its length after which a ray from L meets an upright box of 4.6 x 1.8 m about (x, y), turned by yaw, whose
-/// top is so far above L; infinity where it misses.
-double share_to_box(const Eigen::Vector3d& ray, double x, double y, double yaw, double top) {
+/// Share of its length after which a ray from L to (px, py, pz) meets an upright box of 4.6 x 1.8 m about (x, y),
+/// turned by yaw, whose top is 1.2 m above L; 1 where it misses.
+double share_to_box(double px, double py, double pz, double x, double y, double yaw) {
   constexpr std::array<double, 2> half = {2.3, 0.9};
+  constexpr double top_m = 1.2;
   const double c = std::cos(yaw), s = std::sin(yaw);
-  const std::array<double, 2> from = {-(c * x + s * y), -(c * y - s * x)};
-  const std::array<double, 2> to = {c * ray.x() + s * ray.y(), c * ray.y() - s * ray.x()};
+  const std::array<double, 2> from = {-(c * x + s * y), -(c * y - s * x)}, to = {c * px + s * py, c * py - s * px};
   double in = 0.0, out = 1.0;
   for (std::size_t k = 0; k < 2; ++k) {
     const double a = (-half[k] - from[k]) / to[k], b = (half[k] - from[k]) / to[k];
     in = std::max(in, std::min(a, b));
     out = std::min(out, std::max(a, b));
   }
-  return in < out && in * ray.z() < top ? in : std::numeric_limits<double>::infinity();
+  return in < out && in * pz < top_m ? in : 1.0;
 }
 
 constexpr double radius_m = 100.0;  ///< of the road's bend to the left
@@ -39,13 +39,7 @@ void put_in_traffic(Scan& scan) {
     const double along = (7.0 * (which / 2 - 1.5) + 1.5 * std::sin(0.4 * t + phase)) / radius_m;
     const double aside = (which % 2 == 0 ? 3.2 : -3.2) + 0.15 * std::sin(phase) + 0.1 * std::sin(0.7 * t + phase);
     const double x = (radius_m - aside) * std::sin(along), y = radius_m - (radius_m - aside) * std::cos(along);
-    const double yaw = along;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double share = share_to_box(scan.point_L[i], x, y, yaw, 1.2);
-      if (share >= 1.0) continue;
-      scan.range_m[i] *= share;
-      scan.point_L[i] *= share;
-    }
+    shorten_rays(scan, [&](double px, double py, double pz) { return share_to_box(px, py, pz, x, y, along); });
   }
 }
 

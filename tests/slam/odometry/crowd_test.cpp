@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slam/odometry/front_end.h"
+#include "tests/slam/shortened_rays.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -17,18 +18,14 @@ void put_in_a_crowd(Scan& scan) {
     const double phase = 2.4 * who, x = 0.7 * (who - 5.5) + 0.4 * std::sin(0.8 * seconds(scan.stamp) + phase);
     const double y = (who % 2 == 0 ? 0.5 : -0.5) * (1.2 + 0.5 * std::cos(phase));
     const double away2 = x * x + y * y - radius_m * radius_m;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double* const p = scan.point_L[i].data();
+    shorten_rays(scan, [&](double px, double py, double pz) {
       // Where the ray enters the column, as a share of its length: a share^2 - 2 b share + away2 = 0.
-      const double b = p[0] * x + p[1] * y;
-      if (b <= 0.0) continue;
-      const double a = p[0] * p[0] + p[1] * p[1], root2 = b * b - a * away2;
-      if (root2 <= 0.0) continue;
+      constexpr double never = 1.0;
+      const double a = px * px + py * py, b = px * x + py * y, root2 = b * b - a * away2;
+      if (b <= 0.0 || root2 <= 0.0) return never;
       const double share = (b - std::sqrt(root2)) / a;
-      if (share >= 1.0 || share * p[2] > top_m) continue;
-      scan.range_m[i] *= share;
-      scan.point_L[i] *= share;
-    }
+      return share * pz > top_m ? never : share;
+    });
   }
 }
 
