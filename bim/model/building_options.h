@@ -20,7 +20,8 @@ struct BuildingOptions {
 template <class V>
 void BuildingOptions::visit(V& v) {
   v("doors", doors, Field{.doc = "state of every door leaf"});
-  v("furniture", furniture, Field{.doc = "whether planned clutter, furniture and coverings are in the building"});
+  v("furniture", furniture,
+    Field{.doc = "whether planned clutter, furniture and coverings of walls and ceilings are in the building"});
 }
 
 }  // namespace plumbline::bim

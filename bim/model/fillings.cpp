@@ -13,6 +13,7 @@
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/body_section.h"
 #include "bim/model/extrude.h"
+#include "bim/model/floors.h"
 #include "bim/model/materials.h"
 #include "bim/model/permanence.h"
 #include "bim/model/wall_frame.h"
@@ -24,9 +25,10 @@ namespace {
 constexpr std::string_view leaf_kind = "door_leaf";
 constexpr std::string_view pane_kind = "window_pane";
 
-/// Furniture, and coverings of floors and ceilings, which may not lie yet.
-bool is_left_out(const Obstacle& obstacle) {
-  return permanence_of(obstacle) == Permanence::furniture || (obstacle.planned && obstacle.kind == "covering");
+/// Furniture, and coverings of walls and ceilings, which may not be there yet.
+bool is_left_out(const Building& building, const Obstacle& obstacle) {
+  if (permanence_of(obstacle) == Permanence::furniture) return true;
+  return obstacle.planned && obstacle.kind == "covering" && !is_floor_covering(building, obstacle);
 }
 
 /// Where a plate stands on the plan: its middle, the unit vector along it, and its length.
@@ -118,7 +120,8 @@ void fill(Building& building, const Opening& opening, std::string_view kind, dou
 bool is_filling(const Obstacle& obstacle) { return obstacle.kind == leaf_kind || obstacle.kind == pane_kind; }
 
 void apply_options(Building& building, const BuildingOptions& options) {
-  if (!options.furniture) std::erase_if(building.obstacles, is_left_out);
+  if (!options.furniture)
+    std::erase_if(building.obstacles, [&](const Obstacle& obstacle) { return is_left_out(building, obstacle); });
   if (options.doors == Doors::as_designed) return;
   for (Opening& opening : building.openings)
     if (opening.kind == OpeningKind::door && opening.leaf != Leaf::none)

@@ -86,7 +86,7 @@ class Floors {
         add(FloorSource::slab, element, slab.polygon, {slab.z1_m, Eigen::Vector2d::Zero(), slab.z1_m, {}});
     }
     for (std::size_t i = 0; i < building_.obstacles.size(); ++i)
-      if (building_.obstacles[i].kind == "ramp" || building_.obstacles[i].kind == "footing")
+      if (carries(building_.obstacles[i]))
         add_body(FloorSource::obstacle, static_cast<int>(i), building_.obstacles[i].body);
     cut_covered();
     add_rooms();
@@ -103,6 +103,10 @@ class Floors {
   }
 
  private:
+  [[nodiscard]] bool carries(const Obstacle& obstacle) const {
+    return obstacle.kind == "ramp" || obstacle.kind == "footing" || is_floor_covering(building_, obstacle, config_);
+  }
+
   void add(FloorSource source, int element, PolygonWithHoles2 polygon, const UpwardFace& face) {
     if (polygon.outer.size() < 3 || area({polygon}) < config_.least_m2) return;
     FloorPiece piece{source, element, -1, std::move(polygon), face.z0_m, face.slope};
@@ -205,7 +209,8 @@ class Floors {
     return found;
   }
 
-  /// Share of a room's area that stands on pieces at its lower end, by points of a grid.
+  /// Share of a room's area that stands on pieces at its lower end, by points of a grid. A well in a slab is none that
+  /// the slab lacks.
   [[nodiscard]] double share_on_floor(const Room& room, const BoxIndex& boxes) const {
     constexpr int across = 9;
     const Eigen::AlignedBox2d box = box_of(room.polygon);
@@ -219,7 +224,7 @@ class Floors {
       carried += std::any_of(near.begin(), near.end(), [&](int k) {
         const FloorPiece& piece = pieces_[static_cast<std::size_t>(k)];
         const double over = piece.z_at(p) - room.z0_m;
-        return over >= -config_.sunken_m && over <= config_.at_room_m && contains(piece.polygon, p);
+        return over >= -config_.sunken_m && over <= config_.at_room_m && contains(piece.polygon.outer, p);
       });
     }
     return inside > 0 ? static_cast<double>(carried) / inside : 1.0;
@@ -267,6 +272,25 @@ class Floors {
 };
 
 }  // namespace
+
+bool is_floor_covering(const Building& building, const Obstacle& obstacle, const FloorConfig& config) {
+  if (obstacle.kind != "covering" || obstacle.body.triangles.empty()) return false;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : obstacle.body.vertices) box.extend(p);
+  if (box.sizes().z() > config.covering_m) return false;
+  const auto meets = [&](double foot_m) {
+    return foot_m >= box.min().z() - config.foot_m && foot_m <= box.max().z() + config.foot_m;
+  };
+  const Eigen::AlignedBox2d on_plan(box.min().head<2>(), box.max().head<2>());
+  bool any_room = false;
+  for (const Room& room : building.rooms) {
+    if (room.storey != obstacle.storey) continue;
+    any_room = true;
+    if (meets(room.z0_m) && !room.polygon.empty() && on_plan.intersects(box_of(room.polygon))) return true;
+  }
+  return !any_room && obstacle.storey >= 0 &&
+         meets(building.storeys[static_cast<std::size_t>(obstacle.storey)].elevation_m);
+}
 
 std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config) {
   return Floors(building, config).find();

@@ -11,7 +11,7 @@ namespace plumbline::bim {
 /// What a piece of floor is known from, surest first.
 enum class FloorSource {
   slab,      ///< the top of a slab
-  obstacle,  ///< the top of a ramp or a footing
+  obstacle,  ///< the top of a ramp, a footing or a floor covering
   room,      ///< no slab under a room: its own lower end
   walls,     ///< neither slabs nor rooms on the storey: everything within its walls, at its elevation
 };
@@ -37,14 +37,21 @@ struct FloorConfig {
   double at_room_m = 0.35;     ///< a piece this close to a room's lower end is that room's floor
   double covered_share = 0.5;  ///< a room with less of its area on such pieces has no slab
   double least_m2 = 0.01;      ///< smaller pieces are left out
+  double covering_m = 0.35;    ///< a thicker covering is none of a floor; a layer of a floor is up to 0.2 m thick
+  double foot_m = 0.08;        ///< a room begins this near above or below a floor covering, or within it
 };
 
-/// The floors of all storeys, by (storey, height, outline): the upward faces of slabs, ramps and footings, each as high
-/// as it is, so that split levels, raised and sunken floors, mezzanines and ramps lie where they are and not at their
-/// storey's elevation. A piece belongs to the storey of the room it is the floor of, otherwise to the highest habitable
-/// storey that begins no more than sunken_m above it. What lies under another piece without headroom, or inside another
-/// slab, is cut away; so where two pieces of a storey overlap on the plan one can stand on both. Whether a robot gets
-/// from one piece to the next is not looked at.
+/// Whether a covering lies where a floor does: it is flat, and the lower end of a room above it, or its storey's
+/// elevation where that has no rooms, meets it. What hangs under a ceiling does not.
+[[nodiscard]] bool is_floor_covering(const Building& building, const Obstacle& obstacle,
+                                     const FloorConfig& config = {});
+
+/// The floors of all storeys, by (storey, height, outline): the upward faces of slabs, ramps, footings and floor
+/// coverings, each as high as it is, so that split levels, raised and sunken floors, mezzanines and ramps lie where
+/// they are and not at their storey's elevation. A piece belongs to the storey of the room it is the floor of,
+/// otherwise to the highest habitable storey that begins no more than sunken_m above it. What lies under another piece
+/// without headroom, or inside another slab, is cut away; so where two pieces of a storey overlap on the plan one can
+/// stand on both. Whether a robot gets from one piece to the next is not looked at.
 [[nodiscard]] std::vector<FloorPiece> floor_pieces(const Building& building, const FloorConfig& config = {});
 
 /// Thin slabs for storeys that have none, so that a LiDAR sees what a robot stands on: under their rooms, without rooms

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
+#include "bim/geometry/interval.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/through.h"
 #include "bim/model/wall_frame.h"
@@ -73,17 +73,20 @@ double ground_of(const Building& building, int storey, const std::vector<FloorPi
   return ground;
 }
 
-bool is_ramp(const Building& building, const FloorPiece& piece) {
-  return piece.source == FloorSource::obstacle &&
-         building.obstacles[static_cast<std::size_t>(piece.element)].kind == "ramp";
+/// The ramp or the floor covering that a piece is the top of. A footing is an obstacle all the same.
+int walked_obstacle(const Building& building, const FloorPiece& piece) {
+  if (piece.source != FloorSource::obstacle) return -1;
+  return building.obstacles[static_cast<std::size_t>(piece.element)].kind == "footing" ? -1 : piece.element;
 }
 
 /// Adds the thresholds of open doors that lead to one of the floors.
-void add_thresholds(const Building& building, const std::function<bool(double)>& is_raised,
-                    const WalkedFloorConfig& config, std::vector<RaisedFloor>& floors) {
+void add_thresholds(const Building& building, const Interval& heights, const WalkedFloorConfig& config,
+                    std::vector<RaisedFloor>& floors) {
   const std::size_t count = floors.size();
   for (const Opening& opening : building.openings) {
-    if (opening.wall < 0 || opening.kind == OpeningKind::window || !is_raised(opening.z0_m)) continue;
+    if (opening.wall < 0 || opening.kind == OpeningKind::window || opening.z0_m <= heights.low ||
+        opening.z0_m > heights.high)
+      continue;
     const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
     if (!goes_through(opening, wall)) continue;
     const Polygon2 outline = threshold(opening, wall);
@@ -136,8 +139,9 @@ WalkedFloors walked_floors(const Building& as_built, int storey, const WalkedFlo
                                [&](const Slab& slab) { return is_raised(slab.z1_m); }) ||
                    std::any_of(as_built.rooms.begin(), as_built.rooms.end(),
                                [&](const Room& room) { return room.storey == storey && is_raised(room.z0_m); }) ||
-                   std::any_of(as_built.obstacles.begin(), as_built.obstacles.end(),
-                               [](const Obstacle& obstacle) { return obstacle.kind == "ramp"; });
+                   std::any_of(as_built.obstacles.begin(), as_built.obstacles.end(), [&](const Obstacle& obstacle) {
+                     return obstacle.kind == "ramp" || is_floor_covering(as_built, obstacle);
+                   });
   if (!any) return floors;
   const std::vector<FloorPiece> pieces = floor_pieces(as_built);
   if (sunken) floors.ground_m = ground_of(as_built, storey, pieces, config);
@@ -146,11 +150,12 @@ WalkedFloors walked_floors(const Building& as_built, int storey, const WalkedFlo
     const auto [low, high] = heights_of(piece);
     const bool slopes = !piece.slope.isZero(0.0);
     if (slopes && (piece.slope.norm() > config.steepest || high - low < config.slope_min_m)) continue;
-    if (!is_raised(high) || low < floors.ground_m - config.level_m) continue;
-    floors.raised.push_back(
-        {piece.polygon, high, piece.z0_m, piece.slope, is_ramp(as_built, piece) ? piece.element : -1});
+    const int obstacle = walked_obstacle(as_built, piece);
+    const bool covers = obstacle >= 0 && !slopes && high > floors.ground_m && high <= elevation + config.highest_m;
+    if ((!is_raised(high) && !covers) || low < floors.ground_m - config.level_m) continue;
+    floors.raised.push_back({piece.polygon, high, piece.z0_m, piece.slope, obstacle});
   }
-  add_thresholds(as_built, is_raised, config, floors.raised);
+  add_thresholds(as_built, {floors.ground_m, elevation + config.highest_m}, config, floors.raised);
   std::stable_sort(floors.raised.begin(), floors.raised.end(),
                    [](const RaisedFloor& a, const RaisedFloor& b) { return a.z_m < b.z_m; });
   return floors;

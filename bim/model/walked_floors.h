@@ -27,7 +27,7 @@ struct RaisedFloor {
   double z_m = 0.0;                                 ///< of its highest point
   double z0_m = 0.0;                                ///< over the plan's origin
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< rise per metre along x and along y
-  int obstacle = -1;                                ///< the ramp that it is the top of, -1: none
+  int obstacle = -1;                                ///< the ramp or floor covering that it is the top of, -1: none
 
   [[nodiscard]] bool is_level() const { return slope.isZero(0.0); }
   /// Height over a point of the plan, m.

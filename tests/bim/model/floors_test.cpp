@@ -99,6 +99,42 @@ TEST(Floors, ARampSlopes) {
   EXPECT_NEAR(total(pieces, 0), 20.0 + (0.6 - 0.5) / 0.15 * 2.0, 0.02);
 }
 
+Obstacle covering(const Polygon2& outline, double z0, double z1) {
+  Obstacle o;
+  o.kind = "covering";
+  o.storey = 0;
+  o.body = extrude({{outline, {}}}, z0, z1);
+  return o;
+}
+
+TEST(Floors, WhatCoversASlabIsTheFloorAndWhatHangsUnderOneIsNot) {
+  Building building = two_storeys();
+  building.slabs = {slab(box(0, 0, 6, 4), -0.2, 0.0), slab(box(0, 0, 6, 4), 2.8, 3.0)};
+  building.obstacles = {covering(box(0, 0, 3, 4), 0.0, 0.1), covering(box(0, 0, 6, 4), 2.5, 2.52),
+                        covering(box(0, 0, 0.02, 4), 0.0, 2.5)};
+  for (const double room_m : {0.1, 0.0}) {
+    Room room;
+    room.storey = 0;
+    room.polygon = box(0, 0, 6, 4);
+    room.z0_m = room_m;
+    building.rooms = {room};
+    EXPECT_TRUE(is_floor_covering(building, building.obstacles[0]));
+    EXPECT_FALSE(is_floor_covering(building, building.obstacles[1])) << "a ceiling";
+    EXPECT_FALSE(is_floor_covering(building, building.obstacles[2])) << "a cladding";
+    const std::vector<FloorPiece> pieces = floor_pieces(building);
+    EXPECT_NEAR(at(pieces, {2, 2})->z_at({2, 2}), 0.1, 1e-9);
+    EXPECT_NEAR(at(pieces, {5, 2})->z_at({5, 2}), 0.0, 1e-9);
+    EXPECT_NEAR(total(pieces, 0), 24.0, 1e-6);
+  }
+  building.rooms.clear();
+  EXPECT_TRUE(is_floor_covering(building, building.obstacles[0])) << "at the storey's elevation";
+  building.rooms.push_back({});
+  building.rooms[0].storey = 0;
+  building.rooms[0].polygon = box(0, 0, 6, 4);
+  building.rooms[0].z0_m = 0.4;
+  EXPECT_FALSE(is_floor_covering(building, building.obstacles[0])) << "lies below the floor";
+}
+
 TEST(Floors, RoomsAndThenWallsStandInForMissingSlabs) {
   Building building = two_storeys();
   Room room;

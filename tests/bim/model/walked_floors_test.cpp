@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bim/model/extrude.h"
+#include "bim/model/fillings.h"
 #include "bim/random/stream.h"
 
 namespace plumbline::bim {
@@ -42,6 +44,61 @@ TEST(WalkedFloors, MovedHaveTheirHeightsWhereTheyWereMoved) {
       EXPECT_NEAR(height_at(there, (X_VW * p).head<2>()), height_at(floors(), p.head<2>()) + X_VW.t.z(), 1e-9)
           << p.transpose();
     }
+  }
+}
+
+/// Two rooms on one slab whose screed, this thick, is drawn as coverings; a door begins on it.
+Building on_screed(double screed_m) {
+  Building building;
+  building.storeys.push_back({"s0", "s0", 0.0, 3.0, 0});
+  Slab slab;
+  slab.storey = 0;
+  slab.polygon = {rectangle(0, 0, 10, 4), {}};
+  slab.z0_m = -0.2;
+  slab.z1_m = 0.0;
+  building.slabs = {slab};
+  Wall wall;
+  wall.storey = 0;
+  wall.a = {5, 0};
+  wall.b = {5, 4};
+  wall.thickness_m = 0.2;
+  wall.z1_m = 2.8;
+  building.walls = {wall};
+  Opening door;
+  door.kind = OpeningKind::door;
+  door.wall = 0;
+  door.s_m = 2.0;
+  door.width_m = 1.0;
+  door.z0_m = screed_m;
+  door.z1_m = screed_m + 2.0;
+  building.openings = {door};
+  for (const double x : {0.0, 5.1}) {
+    Room room;
+    room.storey = 0;
+    room.polygon = rectangle(x, 0, x + 4.9, 4);
+    room.z0_m = screed_m;
+    building.rooms.push_back(room);
+    Obstacle covering;
+    covering.kind = "covering";
+    covering.storey = 0;
+    covering.planned = true;
+    covering.body = extrude({{room.polygon, {}}}, 0.0, screed_m);
+    building.obstacles.push_back(covering);
+  }
+  return building;
+}
+
+TEST(WalkedFloors, AreTheTopOfAScreedHoweverThin) {
+  for (const double screed_m : {0.02, 0.05, 0.1, 0.15}) {
+    Building building = on_screed(screed_m);
+    const WalkedFloors walked = walked_floors(building, 0);
+    EXPECT_EQ(walked.ground_m, 0.0);
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(2, 2), Eigen::Vector2d(8, 2), Eigen::Vector2d(5, 2)})
+      EXPECT_NEAR(height_at(walked, p), screed_m, 1e-9) << p.transpose();
+    BuildingOptions bare;
+    bare.furniture = false;
+    apply_options(building, bare);
+    EXPECT_EQ(building.obstacles.size(), 2u) << "a screed is no furniture";
   }
 }
 

@@ -24,6 +24,7 @@ struct IfcConfig {
   double filling_share = 0.5;     ///< ... or in an opening with more than this share of its box
   double headroom_m = 1.2;        ///< that a robot needs over the steps of a stair
   double stair_reach_m = 0.1;     ///< the foot or head of a stair is this close to the floor of its storey
+  double stair_foot_m = 0.25;     ///< ... or its foot stands on the slab this far below
 };
 
 /// Shapes by which an element of no class of its own is taken for a wall or a floor, where the file has none.

@@ -5,22 +5,26 @@
 #include "bim/config/tree.h"
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/formats/ifc/read/stair_recognition.h"
+#include "bim/formats/ifc/read/storey_kinds.h"
 #include "bim/geometry/interval.h"
 
 namespace plumbline::bim {
 namespace {
 
-/// Storey whose floor lies within `below` under and `above` over a height; the nearest, of equal ones the lower; -1
-/// none.
+/// Storey whose floor lies within `below` under and `above` over a height: one with rooms, since some files have a
+/// level more for the top of each slab; of those the nearest, of equal ones the lower; -1 none.
 int storey_near(const Building& building, double z_m, double below_m, double above_m) {
   int best = -1;
   double nearest = 0.0;
+  bool roomy = false;
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const double away = building.storeys[i].elevation_m - z_m;
     if (away < -below_m || away > above_m) continue;
-    if (best >= 0 && std::abs(away) >= nearest) continue;
+    const bool rooms = has_room(building, static_cast<int>(i));
+    if (best >= 0 && (rooms == roomy ? std::abs(away) >= nearest : roomy)) continue;
     best = static_cast<int>(i);
     nearest = std::abs(away);
+    roomy = rooms;
   }
   return best;
 }
@@ -121,7 +125,7 @@ void Interpreter::place_stair(const StepProduct& product, Stair& stair) {
     return;
   }
   const Levels levels = levels_of(stair);
-  const int from = storey_near(building_, levels.foot_m, config_.stair_reach_m, config_.stair_reach_m);
+  const int from = storey_near(building_, levels.foot_m, config_.stair_reach_m, config_.stair_foot_m);
   // The last riser may lead from the last tread to the floor.
   const int to = storey_near(building_, levels.head_m, config_.stair_reach_m, levels.rise_m + config_.stair_reach_m);
   if (from >= 0) stair.from = from;

@@ -8,14 +8,29 @@
 namespace plumbline::bim {
 namespace {
 
+/// The box of a storey's rooms and what stands at them; empty without any.
+Eigen::AlignedBox2d box_of_rooms(const Building& building, int storey, const StoreyKindConfig& config) {
+  Eigen::AlignedBox2d box;
+  for (const Room& room : building.rooms)
+    if (room.storey == storey)
+      for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
+  if (!box.isEmpty()) box = {box.min().array() - config.beside_m, box.max().array() + config.beside_m};
+  return box;
+}
+
+/// What stands around a storey's rooms may hang on another one.
 bool has_upright(const Building& building, int storey, const StoreyKindConfig& config) {
   const double floor_m = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
   const auto stands = [&](const auto& element) {
-    return element.storey == storey && element.z0_m <= floor_m + config.knee_m &&
-           element.z1_m >= floor_m + config.person_m;
+    return element.z0_m <= floor_m + config.knee_m && element.z1_m >= floor_m + config.person_m;
   };
-  return std::any_of(building.walls.begin(), building.walls.end(), stands) ||
-         std::any_of(building.columns.begin(), building.columns.end(), stands) ||
+  const auto stands_here = [&](const auto& element) { return element.storey == storey && stands(element); };
+  const Eigen::AlignedBox2d rooms = box_of_rooms(building, storey, config);
+  return std::any_of(building.walls.begin(), building.walls.end(), stands_here) ||
+         std::any_of(building.columns.begin(), building.columns.end(), stands_here) ||
+         std::any_of(
+             building.walls.begin(), building.walls.end(),
+             [&](const Wall& wall) { return stands(wall) && (rooms.contains(wall.a) || rooms.contains(wall.b)); }) ||
          std::any_of(building.obstacles.begin(), building.obstacles.end(), [&](const Obstacle& obstacle) {
            return obstacle.storey == storey && obstacle.kind == "curtain_panel";
          });
@@ -23,14 +38,17 @@ bool has_upright(const Building& building, int storey, const StoreyKindConfig& c
 
 bool has_floor(const Building& building, int storey, const StoreyKindConfig& config) {
   const double floor_m = building.storeys[static_cast<std::size_t>(storey)].elevation_m;
-  return std::any_of(building.rooms.begin(), building.rooms.end(),
-                     [&](const Room& room) { return room.storey == storey; }) ||
-         std::any_of(building.slabs.begin(), building.slabs.end(), [&](const Slab& slab) {
+  return has_room(building, storey) || std::any_of(building.slabs.begin(), building.slabs.end(), [&](const Slab& slab) {
            return std::abs(slab.z1_m - floor_m) <= config.floor_m && signed_area(slab.polygon.outer) >= config.least_m2;
          });
 }
 
 }  // namespace
+
+bool has_room(const Building& building, int storey) {
+  return std::any_of(building.rooms.begin(), building.rooms.end(),
+                     [&](const Room& room) { return room.storey == storey; });
+}
 
 bool has_door(const Building& building, int storey, const StoreyKindConfig& config) {
   const double floor_m = building.storeys[static_cast<std::size_t>(storey)].elevation_m;

@@ -14,7 +14,7 @@ struct ClassName {
 };
 
 /// Subtypes stand by themselves.
-constexpr std::array<ClassName, 31> class_names{{
+constexpr std::array<ClassName, 32> class_names{{
     {"IfcBuildingElementPart", StepClass::part},
     {"IfcBuildingStorey", StepClass::storey},
     {"IfcColumn", StepClass::column},
@@ -23,6 +23,7 @@ constexpr std::array<ClassName, 31> class_names{{
     {"IfcDoor", StepClass::door},
     {"IfcDoorStandardCase", StepClass::door},
     {"IfcFastener", StepClass::hidden},
+    {"IfcGeographicElement", StepClass::hidden},
     {"IfcMechanicalFastener", StepClass::hidden},
     {"IfcOpeningElement", StepClass::opening},
     {"IfcOpeningStandardCase", StepClass::opening},

@@ -54,6 +54,7 @@ namespace {
 
 /// Class of a product; an element of a type that has no own is in the way.
 std::optional<StepClass> class_of_product(const IfcProduct& product) {
+  if (is_provision(product)) return StepClass::hidden;
   if (const std::optional<StepClass> known = class_of(product.className())) return known;
   if (dynamic_cast<const IfcElement*>(&product) == nullptr) return std::nullopt;
   return dynamic_cast<const IfcFeatureElementSubtraction*>(&product) != nullptr ? StepClass::opening

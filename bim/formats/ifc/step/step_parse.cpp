@@ -71,10 +71,11 @@ std::shared_ptr<BuildingModel> parse_step(const std::string& text, const std::st
     ReaderSTEP reader;
     std::string content = with_plain_strings(text);
     // It reads files of no other schema than these two, and identifies them by this name.
-    const std::size_t header = content.find("FILE_SCHEMA");
-    const std::size_t begin = header == std::string::npos ? header : content.find('\'', header);
-    const std::size_t end = begin == std::string::npos ? begin : content.find('\'', begin + 1);
-    if (end != std::string::npos) content.replace(begin + 1, end - begin - 1, schema_for_reader(schema));
+    // It reads the line of FILE_SCHEMA only, in which the schema need not stand.
+    const std::size_t begin = content.find("FILE_SCHEMA");
+    const std::size_t end = begin == std::string::npos ? begin : content.find(';', begin);
+    if (end != std::string::npos)
+      content.replace(begin, end - begin, "FILE_SCHEMA(('" + schema_for_reader(schema) + "'))");
     reader.loadModelFromString(content, model);
   } catch (const std::exception& error) {
     throw InputError({file, 0, 0}, std::string("the file cannot be read as IFC: ") + error.what());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/step_said.h"
 
+#include <ifcpp/IFC4/include/IfcBuildingElementProxy.h>
+#include <ifcpp/IFC4/include/IfcBuildingElementProxyTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcCovering.h>
 #include <ifcpp/IFC4/include/IfcCoveringTypeEnum.h>
@@ -12,6 +14,8 @@
 #include <ifcpp/IFC4/include/IfcSpace.h>
 #include <ifcpp/IFC4/include/IfcSpaceTypeEnum.h>
 #include <ifcpp/IFC4/include/IfcWindow.h>
+
+#include <cctype>
 
 #include "bim/formats/ifc/step/step_parse.h"
 
@@ -54,7 +58,26 @@ void read_size(const IfcProduct& source, double unit_m, StepProduct& product) {
   if (filling->m_OverallHeight) product.height_m = unit_m * filling->m_OverallHeight->m_value;
 }
 
+/// IFC2x3 has no such type of a proxy: it stands in the type that a user defines.
+bool says_provision(const IfcBuildingElementProxy& proxy) {
+  if (!proxy.m_ObjectType) return false;
+  std::string said;
+  for (const char c : utf8(proxy.m_ObjectType->m_value))
+    if (const auto letter = static_cast<unsigned char>(c); std::isalpha(letter) != 0)
+      said += static_cast<char>(std::tolower(letter));
+  return said == "provisionforvoid" || said == "provisionforspace";
+}
+
 }  // namespace
+
+bool is_provision(const IfcProduct& product) {
+  const auto* proxy = dynamic_cast<const IfcBuildingElementProxy*>(&product);
+  if (proxy == nullptr) return false;
+  if (!proxy->m_PredefinedType) return says_provision(*proxy);
+  const auto type = proxy->m_PredefinedType->m_enum;
+  return type == IfcBuildingElementProxyTypeEnum::ENUM_PROVISIONFORVOID ||
+         type == IfcBuildingElementProxyTypeEnum::ENUM_PROVISIONFORSPACE || says_provision(*proxy);
+}
 
 void read_said(const IfcProduct& source, double unit_m, StepProduct& product) {
   product.name = name_of(source);

@@ -11,4 +11,7 @@ namespace plumbline::bim {
 /// of a storey, the size of a door or window.
 void read_said(const IfcProduct& source, double unit_m, StepProduct& product);
 
+/// Space kept free for an opening to come: a body without matter.
+[[nodiscard]] bool is_provision(const IfcProduct& product);
+
 }  // namespace plumbline::bim

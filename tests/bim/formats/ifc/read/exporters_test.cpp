@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// What exporters write beside walls and rooms: a level for the top of each slab, provisions for voids, terrain, wells.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "bim/geometry/polygon_boolean.h"
+#include "bim/model/floors.h"
+#include "tests/bim/formats/ifc/read/reading.h"
+#include "tests/bim/formats/ifc/sketch.h"
+
+namespace plumbline::bim {
+namespace {
+
+void add_space(Sketch& sketch, const std::string& storey, double z0, double z1) {
+  const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+  const std::string id =
+      sketch.rooted("IFCSPACE", "'room',$,$," + at + "," + sketch.shape(sketch.box(0.1, 0.1, z0, 7.9, 5.9, z1)) +
+                                    ",$,.ELEMENT.,.INTERNAL.,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + id + ")");
+}
+
+/// One room over another, each on a slab whose top is a level of its own this far below; slabs and walls hang on those,
+/// rooms on the levels of the finished floors. A stair leads from slab to slab, or from floor to floor.
+Sketch two_levels_a_floor(double below_m, bool stair_on_floors) {
+  constexpr int steps = 17;
+  Sketch sketch;
+  const double rise = 3.0 / steps, foot = stair_on_floors ? 0.0 : -below_m;
+  std::string items;
+  for (int k = 0; k < steps; ++k)
+    items += (k > 0 ? "," : "") +
+             sketch.box(1 + 0.28 * k, 2, foot + rise * k, 1 + 0.28 * (k + 1), 3.1, foot + rise * (k + 1));
+  for (const double z : {0.0, 3.0}) {
+    const double slab_m = z - below_m;
+    sketch.storey(slab_m);
+    const std::string slab = sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, slab_m - 0.2, slab_m);
+    if (z > 0.0) sketch.opening(slab, sketch.box(0.9, 1.9, 2.0, 1 + 0.28 * steps, 3.2, 3.2));
+    for (const double y : {0.0, 6.0})
+      sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, y - 0.1, slab_m, 8, y + 0.1, slab_m + 2.8), 8), "$,$");
+    if (z == 0.0) sketch.element("IFCSTAIR", sketch.shape(items), "$,$");
+    add_space(sketch, sketch.storey(z), z, z + 2.6);
+  }
+  return sketch;
+}
+
+TEST(LevelsOfSlabs, AStairLeadsFromRoomToRoomAndTheirStoreysAreHabitable) {
+  for (const double below_m : {0.05, 0.1, 0.2})
+    for (const bool on_floors : {true, false}) {
+      SCOPED_TRACE(std::to_string(below_m) + (on_floors ? ", stair on floors" : ", stair on slabs"));
+      const Building building = read(two_levels_a_floor(below_m, on_floors));
+      ASSERT_EQ(building.storeys.size(), 4u);
+      ASSERT_EQ(building.rooms.size(), 2u);
+      ASSERT_EQ(building.stairs.size(), 1u);
+      EXPECT_EQ(building.stairs.front().from, building.rooms[0].storey);
+      EXPECT_EQ(building.stairs.front().to, building.rooms[1].storey);
+      for (const Room& room : building.rooms)
+        EXPECT_EQ(building.storeys[static_cast<std::size_t>(room.storey)].kind, StoreyKind::habitable);
+    }
+}
+
+TEST(Provisions, ForVoidsAreNoMatter) {
+  for (const std::string schema : {"IFC4", "IFC2X3"}) {
+    Sketch sketch;
+    sketch.schema = schema;
+    const std::string wall = two_rooms(sketch);
+    sketch.door(sketch.opening(wall, sketch.box(3.5, 2.5, 0, 4.5, 3.5, 2.1)));
+    const std::string type = schema == "IFC4" ? ".PROVISIONFORVOID." : "$";
+    sketch.element("IFCBUILDINGELEMENTPROXY", sketch.shape(sketch.box(3, 2.8, 0.2, 5, 3.2, 1.5)), "$," + type);
+    sketch.element("IFCBUILDINGELEMENTPROXY", sketch.shape(sketch.box(6, 4, 0, 7, 5, 1)), "$,$");
+    std::string text = sketch.text();
+    if (schema == "IFC2X3") text.replace(text.find("PROXY',$,$"), 10, "PROXY',$,'Provision for void'");
+    const Building building = read_ifc_text(text, "s.ifc");
+    ASSERT_EQ(building.obstacles.size(), 1u) << "the other proxy";
+    EXPECT_EQ(building.obstacles.front().kind, "proxy");
+    EXPECT_EQ(count(building, "left_out"), 1);
+  }
+}
+
+TEST(Terrain, IsLeftOutWhateverItsClass) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.element("IFCGEOGRAPHICELEMENT", sketch.shape(sketch.box(-20, -20, -1, 20, 20, 0.4)), "$,.TERRAIN.");
+  const Building building = read(sketch);
+  EXPECT_TRUE(building.obstacles.empty());
+  EXPECT_EQ(count(building, "left_out"), 1);
+}
+
+TEST(Headers, MayBreakTheLineWithinTheSchema) {
+  Sketch sketch;
+  two_rooms(sketch);
+  const std::string text = sketch.text(), said = "FILE_SCHEMA(('IFC4'))";
+  for (const std::string other :
+       {"FILE_SCHEMA\n(('IFC4'))", "FILE_SCHEMA((\r\n'IFC4'\r\n))", "FILE_SCHEMA ( ( 'IFC4' ) )"}) {
+    std::string broken = text;
+    broken.replace(broken.find(said), said.size(), other);
+    EXPECT_EQ(read_ifc_text(broken, "s.ifc").walls.size(), 5u) << other;
+  }
+}
+
+TEST(Wells, InASlabLeaveARoomItsFloor) {
+  Sketch sketch;
+  const std::string storey = sketch.storey(0);
+  const std::string slab = sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  sketch.opening(slab, sketch.box(1, 1, -0.5, 7, 5.2, 0.5));  // more than half of the room
+  for (const double y : {0.0, 6.0}) sketch.wall(0, y, 8, 0.2, 3);
+  for (const double x : {0.0, 8.0}) sketch.wall(x, 0, 6, 0.2, 3, true);
+  add_space(sketch, storey, 0, 2.8);
+  const Building building = read(sketch);
+  EXPECT_EQ(count(building, "no_floor"), 0);
+  for (const FloorPiece& piece : floor_pieces(building)) {
+    EXPECT_EQ(piece.source, FloorSource::slab);
+    EXPECT_FALSE(contains(piece.polygon, Eigen::Vector2d(4, 3))) << "in the well";
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::bim
