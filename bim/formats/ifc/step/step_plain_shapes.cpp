@@ -12,6 +12,7 @@
 #include "bim/formats/ifc/step/step_conics.h"
 #include "bim/formats/ifc/step/step_edits.h"
 #include "bim/formats/ifc/step/step_entities.h"
+#include "bim/formats/ifc/step/step_tapered.h"
 
 namespace plumbline::bim {
 namespace {
@@ -225,6 +226,9 @@ class PlainShapes {
     }
     const bool composite = entities_.entity(values.at(0).as_reference()).type == composite_type;
     const bool tapered = entity.type.ends_with("TAPERED");
+    if (tapered && entity.type.starts_with(extrusion_type))
+      if (const std::optional<TaperedBody> body = tapered_body(entities_, values))
+        return edits_.replace(entity, facets(*body));
     if (composite && !tapered && collect_parts(values.at(0), parts) && !parts.empty()) {
       std::vector<std::string> solids;
       for (const std::string& part : parts) {
@@ -234,6 +238,33 @@ class PlainShapes {
       return edits_.replace(entity, united(std::move(solids)));
     }
     if (changed) edits_.replace(entity, joined(entity, arguments));
+  }
+
+  std::string face(const std::vector<std::string>& corners) {
+    std::string list;
+    for (const std::string& corner : corners) list += (list.empty() ? "" : ",") + corner;
+    const std::string bound = edits_.add("IFCFACEOUTERBOUND(" + edits_.add("IFCPOLYLOOP((" + list + "))") + ",.T.)");
+    return edits_.add("IFCFACE((" + bound + "))");
+  }
+
+  /// IFC++ takes a tapered extrusion for a prism.
+  std::string facets(const TaperedBody& body) {
+    const auto points = [&](const std::vector<Eigen::Vector3d>& corners) {
+      std::vector<std::string> written;
+      for (const Eigen::Vector3d& p : corners)
+        written.push_back(edits_.add("IFCCARTESIANPOINT((" + StepEdits::real(p.x()) + "," + StepEdits::real(p.y()) +
+                                     "," + StepEdits::real(p.z()) + "))"));
+      return written;
+    };
+    std::vector<std::string> start = points(body.start), end = points(body.end);
+    std::string faces = face(end);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const std::size_t k = (i + 1) % start.size();
+      faces += "," + face({start[i], start[k], end[k]}) + "," + face({start[i], end[k], end[i]});
+    }
+    std::reverse(start.begin(), start.end());
+    faces += "," + face(start);
+    return "IFCFACETEDBREP(" + edits_.add("IFCCLOSEDSHELL((" + faces + "))") + ")";
   }
 
   /// All of them as one entity.

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+
 #include "tests/bim/formats/ifc/step/step_body.h"
 
 namespace plumbline::bim {
@@ -54,6 +57,52 @@ TEST(Extrusions, AreAsDeepAsTheySayWhateverTheirDirectionsLength) {
                                                    "," + direction(sketch, "0.,3.,4.") + ",5.)"));
   EXPECT_NEAR(body.box().max().z(), 4.0, 1e-6);
   EXPECT_NEAR(body.box().max().y(), 3.5, 1e-6);
+}
+
+/// Volume between two similar outlines, whose sides are scaled by a share from start to end.
+double frustum(double area, double share, double height) { return area * height * (1.0 + share + share * share) / 3.0; }
+
+/// Tapered to half its size over 3 m along x from (5, 0, 1).
+StepBody tapered(const std::function<std::string(Sketch&, double scale)>& profile, const std::string& along) {
+  Sketch sketch;
+  const std::string start = profile(sketch, 1.0), end = profile(sketch, 0.5);
+  return body_of(
+      sketch, sketch.add("IFCEXTRUDEDAREASOLIDTAPERED(" + start + "," + sketch.frame(5, 0, 1, "1.,0.,0.", "0.,1.,0.") +
+                         "," + direction(sketch, along) + ",3.," + end + ")"));
+}
+
+TEST(Extrusions, TaperedOnesAreAsThickAtTheirEndAsTheySay) {
+  const auto rectangle = [](Sketch& sketch, double scale) {
+    return sketch.add("IFCRECTANGLEPROFILEDEF(.AREA.,$,$," + Sketch::n(2 * scale) + "," + Sketch::n(scale) + ")");
+  };
+  const auto derived = [&](Sketch& sketch, double scale) {
+    const std::string whole = rectangle(sketch, 1.0);
+    if (scale == 1.0) return whole;
+    const std::string mapped =
+        sketch.add("IFCCARTESIANTRANSFORMATIONOPERATOR2D($,$," + sketch.point(0, 0) + "," + Sketch::n(scale) + ")");
+    return sketch.add("IFCDERIVEDPROFILEDEF(.AREA.,$," + whole + "," + mapped + ",$)");
+  };
+  const auto drawn = [](Sketch& sketch, double scale) {
+    return sketch.add("IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$," +
+                      sketch.polyline({{0, 0}, {0, scale}, {2 * scale, scale}, {2 * scale, 0}}) + ")");
+  };
+  const auto i_shape = [](Sketch& sketch, double scale) {
+    return sketch.add("IFCISHAPEPROFILEDEF(.AREA.,$,$," + Sketch::n(0.4 * scale) + "," + Sketch::n(0.6 * scale) + "," +
+                      Sketch::n(0.02 * scale) + "," + Sketch::n(0.03 * scale) + ",$,$,$)");
+  };
+  for (const char* along : {"0.,0.,1.", "0.,0.,2."})
+    for (const auto& profile :
+         {std::function<std::string(Sketch&, double)>(rectangle), std::function<std::string(Sketch&, double)>(derived),
+          std::function<std::string(Sketch&, double)>(drawn)}) {
+      const StepBody body = tapered(profile, along);
+      EXPECT_TRUE(body.closed());
+      EXPECT_NEAR(body.volume_m3(), frustum(2.0, 0.5, 3.0), 1e-5);
+      EXPECT_NEAR(body.box().min().x(), 5.0, 1e-6);
+      EXPECT_NEAR(body.box().max().x(), 8.0, 1e-6);
+    }
+  EXPECT_NEAR(tapered(i_shape, "0.,0.,1.").volume_m3(), frustum(2 * 0.4 * 0.03 + 0.54 * 0.02, 0.5, 3.0), 1e-5);
+  EXPECT_NEAR(tapered(rectangle, "0.,0.,-1.").box().min().x(), 2.0, 1e-6);
+  EXPECT_NEAR(tapered(rectangle, "0.,0.,-1.").volume_m3(), frustum(2.0, 0.5, 3.0), 1e-5);
 }
 
 TEST(Primitives, BlocksAndPyramidsStandWithACornerAtTheirPlace) {
