@@ -125,7 +125,7 @@ class BagRecording final : public Recording {
       return is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding)
                                   : ros::read_cloud(message.bytes, topic.encoding);
     });
-    if (unstamped_ && said.cloud.stamp == 0) said.cloud.stamp = message.time;
+    if (unstamped_ && said.cloud.stamp == 0) said.cloud.stamp = message.time - times_.times.end_ns;  // after its sweep
     return said;
   }
 

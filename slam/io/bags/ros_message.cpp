@@ -294,9 +294,11 @@ FramedCloud read_livox(std::span<const std::uint8_t> bytes, Encoding encoding) {
   Reader in(bytes, encoding);
   FramedCloud out;
   PointCloud& cloud = out.cloud;
-  static_cast<void>(in.header(out.frame));
+  const Nanoseconds stamp = in.header(out.frame);
   cloud.stamp = static_cast<Nanoseconds>(in.number<std::uint64_t>());
   if (cloud.stamp < 0) throw InputError({}, "a time base that is no time");
+  // A time base of 0, or of the LiDAR's own clock, is not that of the other topics.
+  if (cloud.stamp == 0 || (stamp != 0 && std::abs(cloud.stamp - stamp) > second_ns)) cloud.stamp = stamp;
   const auto points = in.number<std::uint32_t>();
   static_cast<void>(in.take(4));  // the LiDAR's number, and three that are kept free
   if (in.length(point_bytes) != points) throw InputError({}, "a CustomMsg of another number of points than it says");

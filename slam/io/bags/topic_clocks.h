@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "slam/io/records.h"
 
@@ -14,7 +15,8 @@ namespace plumbline::slam {
 /// the stamps.
 class TopicClocks {
  public:
-  /// A record's stamp and the time it was recorded. The first of a topic counts.
+  /// A record's stamp and the time it was recorded. The middle one of a topic's first three counts: a driver's first
+  /// may have no stamp yet.
   void add_scan(Nanoseconds stamp, Nanoseconds recorded) { add(scans_, stamp, recorded); }
   void add_odometry(Nanoseconds stamp, Nanoseconds recorded) { add(odometry_, stamp, recorded); }
 
@@ -22,8 +24,8 @@ class TopicClocks {
   /// plainly apart.
   [[nodiscard]] std::string difference(const std::string& scans, const std::string& odometry) const {
     constexpr double most_s = 5.0;  // of a scan, and of what may be computed before it is recorded
-    if (!scans_ || !odometry_) return {};
-    const double ahead_s = seconds(*scans_ - *odometry_);
+    if (scans_.empty() || odometry_.empty()) return {};
+    const double ahead_s = seconds(middle(scans_) - middle(odometry_));
     if (std::abs(ahead_s) <= most_s) return {};
     char text[64];
     std::snprintf(text, sizeof text, " are %.1f s %s those on ", std::abs(ahead_s),
@@ -32,11 +34,16 @@ class TopicClocks {
   }
 
  private:
-  static void add(std::optional<Nanoseconds>& first, Nanoseconds stamp, Nanoseconds recorded) {
-    if (!first) first = stamp - recorded;
+  static void add(std::vector<Nanoseconds>& first, Nanoseconds stamp, Nanoseconds recorded) {
+    constexpr std::size_t enough = 3;
+    if (first.size() < enough) first.push_back(stamp - recorded);
+  }
+  static Nanoseconds middle(std::vector<Nanoseconds> all) {
+    std::sort(all.begin(), all.end());
+    return all[all.size() / 2];
   }
 
-  std::optional<Nanoseconds> scans_, odometry_;  ///< stamp less the time of recording
+  std::vector<Nanoseconds> scans_, odometry_;  ///< stamps less the times of recording
 };
 
 }  // namespace plumbline::slam

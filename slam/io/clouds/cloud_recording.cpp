@@ -104,7 +104,9 @@ class CloudRecording final : public Recording {
         names_(names_of_clouds(folder_)) {
     if (names_.empty())
       throw InputError({folder_, 0, 0}, "is no folder of point clouds, all of them .pcd, .ply or .bin");
-    if (const auto times = find_cloud_times(folder_)) stamps_ = stamps_of(names_, *times);
+    const auto times = find_cloud_times(folder_);
+    stamps_ = times ? stamps_of(names_, *times) : stamps_in(names_);
+    named_stamps_ = !times && !stamps_.empty();
     constexpr Nanoseconds day = 86'400'000'000'000;
     if (!stamps_.empty() && stamps_.front() > day) origin_ = stamps_.front();
     find_times();
@@ -146,7 +148,8 @@ class CloudRecording final : public Recording {
   [[nodiscard]] std::vector<std::string> assumed() const override {
     std::vector<std::string> all = units_.said();
     if (!times_.said.empty()) all.push_back(times_.said);
-    if (stamps_.empty() && mount_ == MountSource::unknown && is_bin_cloud(names_.front()))
+    if (named_stamps_) all.push_back("the names of the clouds are taken for their stamps");
+    if (stamps_.empty() && mount_ == MountSource::unknown)
       all.push_back(
           "no times.txt or timestamps.txt tells the rate of the scans; one each 0.1 s is assumed, and recording.yaml "
           "beside them, or --description, may say another: lidar: {period_s: 0.05}");
@@ -223,6 +226,7 @@ class CloudRecording final : public Recording {
   AssumedTimes times_;
   PointUnits units_;
   std::vector<Nanoseconds> stamps_;  ///< of the clouds, on their own clock; empty: not known
+  bool named_stamps_ = false;        ///< they are the clouds' names
   Nanoseconds origin_ = 0;
   std::size_t next_ = 0;
   std::optional<Nanoseconds> last_;  ///< stamp of the scan before

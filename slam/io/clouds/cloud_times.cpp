@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
@@ -61,7 +62,44 @@ std::optional<std::size_t> number_of(std::string_view name) {
   return error == std::errc() && !digits.empty() ? std::optional(value) : std::nullopt;
 }
 
+/// "1700000000", "1700000000.5", "1700000000_500000000" or the same in ms, us or ns.
+std::optional<Nanoseconds> stamp_in(std::string_view name) {
+  constexpr std::string_view digits = "0123456789";
+  constexpr std::size_t of_seconds = 10, of_nanoseconds = 9;
+  const std::string_view whole = name.substr(0, name.find_first_not_of(digits));
+  std::string_view rest = name.substr(whole.size());
+  Nanoseconds value = 0;
+  if (whole.size() < of_seconds || whole.front() == '0' ||
+      std::from_chars(whole.data(), whole.data() + whole.size(), value).ec != std::errc())
+    return std::nullopt;
+  if (whole.size() != of_seconds) {
+    Nanoseconds unit = 0;
+    for (const auto& [size, ns] : {std::pair<std::size_t, Nanoseconds>{13, 1'000'000}, {16, 1'000}, {19, 1}})
+      if (whole.size() == size) unit = ns;
+    return unit > 0 && rest.starts_with('.') ? std::optional(value * unit) : std::nullopt;
+  }
+  value *= second_ns;
+  if (rest.empty() || (rest.front() != '.' && rest.front() != '_')) return std::nullopt;
+  const bool parts = rest.front() == '_';
+  rest.remove_prefix(1);
+  std::string fraction(rest.substr(0, rest.find_first_not_of(digits)));
+  if (!rest.substr(fraction.size()).starts_with('.') && !(fraction.empty() && !parts)) return std::nullopt;
+  if (fraction.size() > of_nanoseconds || (parts && fraction.size() != of_nanoseconds)) return std::nullopt;
+  fraction.resize(of_nanoseconds, '0');
+  return value + std::stoll(fraction);
+}
+
 }  // namespace
+
+std::vector<Nanoseconds> stamps_in(const std::vector<std::string>& names) {
+  std::vector<Nanoseconds> stamps;
+  for (const std::string& name : names) {
+    const std::optional<Nanoseconds> stamp = stamp_in(name);
+    if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
+    stamps.push_back(*stamp);
+  }
+  return stamps.size() < 2 ? std::vector<Nanoseconds>{} : stamps;
+}
 
 std::vector<Nanoseconds> read_cloud_times(std::string_view text, const std::string& file) {
   std::vector<Nanoseconds> stamps;

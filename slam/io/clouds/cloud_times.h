@@ -30,4 +30,9 @@ struct CloudTimes {
 /// the names number from 0 on, as 000007.bin, since KITTI's data lack some clouds. Throws InputError where neither is.
 [[nodiscard]] std::vector<Nanoseconds> stamps_of(const std::vector<std::string>& names, const CloudTimes& times);
 
+/// The stamps that the names are, as 1700000000.123.pcd or 1700000000123456789.pcd: seconds of this century, or ms, us
+/// or ns of it by their 13, 16 or 19 digits. Empty unless all names are, of two clouds and more, each later than the
+/// one before.
+[[nodiscard]] std::vector<Nanoseconds> stamps_in(const std::vector<std::string>& names);
+
 }  // namespace plumbline::slam

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
@@ -75,6 +76,18 @@ double number_at(const std::uint8_t* bytes, PointType type) {
 const PointField* ring_field(const PointCloud& cloud) { return find_field(cloud, {"ring", "channel"}); }
 const PointField* time_field(const PointCloud& cloud) {
   return find_field(cloud, {"t", "time", "timestamp", "time_stamp", "offset_time", "time_offset", "time_offset_ns"});
+}
+
+std::string unread_times(const PointCloud& cloud) {
+  std::string names;
+  for (const PointField& field : cloud.fields) {
+    std::string name = field.name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (name.find("time") == std::string::npos && name.find("stamp") == std::string::npos) continue;
+    names += (names.empty() ? "fields " : ", ") + field.name;
+  }
+  return names;
 }
 
 bool is_in_mm(const PointCloud& cloud) {

@@ -16,6 +16,8 @@ namespace plumbline::slam {
 /// The points' ring or time, or null.
 [[nodiscard]] const PointField* ring_field(const PointCloud& cloud);
 [[nodiscard]] const PointField* time_field(const PointCloud& cloud);
+/// "fields timeSecond, timeNanosecond" of a cloud that has such; else empty.
+[[nodiscard]] std::string unread_times(const PointCloud& cloud);
 
 /// Whether x, y and z are whole numbers of 16 or 32 bits. Whole metres would be no measurement: depth cameras and raw
 /// data of Livox have mm so.

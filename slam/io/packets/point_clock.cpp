@@ -19,21 +19,9 @@ namespace plumbline::slam {
 
 namespace {
 
-/// Least and greatest time of the returns, ns from the stamp; (0, 0) without one.
-std::pair<double, double> extent(const PointCloud& cloud, const PointClock& clock,
-                                 const std::vector<CloudPoint>& points) {
-  std::pair<double, double> found(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].valid) continue;
-    const double t = clock.nanoseconds(bytes_of(cloud, i));
-    if (!std::isfinite(t)) return {-std::numeric_limits<double>::infinity(), 0.0};
-    found = {std::min(found.first, t), std::max(found.second, t)};
-  }
-  return found.first > found.second ? std::pair(0.0, 0.0) : found;
-}
-
 constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
 constexpr double least_turn = 5e6;  ///< ns
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// The clocks by which a cloud's times may be read, those from the stamp and those of the day.
 class ClockChoice {
@@ -54,7 +42,7 @@ class ClockChoice {
   }
   /// All points at 0, as before a driver knows the time: that is from neither.
   [[nodiscard]] bool is_without_times() const {
-    return extent(cloud_, {&field_, 1.0, 0.0}, points_) == std::pair(0.0, 0.0);
+    return returns_extent(cloud_, {&field_, 1.0, 0.0}, points_, unbounded) == std::pair(0.0, 0.0);
   }
   /// From the stamp, in a unit that is known.
   [[nodiscard]] std::optional<PointClock> in_unit(double unit_ns) const {
@@ -71,9 +59,8 @@ class ClockChoice {
  private:
   [[nodiscard]] bool whole() const { return field_.type != PointType::f32 && field_.type != PointType::f64; }
   [[nodiscard]] std::optional<PointClock> fitting(const PointClock& clock, double least) const {
-    constexpr double longest = longest_sweep_ns;
-    const auto [first, last] = extent(cloud_, clock, points_);
-    const bool fits = std::abs(first) <= longest && std::abs(last) <= longest && last - first >= least;
+    const auto [first, last] = returns_extent(cloud_, clock, points_, longest_sweep_ns);
+    const bool fits = std::isfinite(first) && last - first >= least;
     return fits ? std::optional(clock) : std::nullopt;
   }
 
@@ -107,6 +94,25 @@ std::string in_ms(double ns) {
 
 }  // namespace
 
+std::pair<double, double> returns_extent(const PointCloud& cloud, const PointClock& clock,
+                                         const std::vector<CloudPoint>& points, double most_ns) {
+  constexpr std::size_t share = 100;  // of the returns, one
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::pair<double, double> found(infinity, -infinity);
+  std::size_t returns = 0, off = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid) continue;
+    ++returns;
+    const double t = clock.nanoseconds(bytes_of(cloud, i));
+    if (std::isfinite(t) && std::abs(t) <= most_ns)
+      found = {std::min(found.first, t), std::max(found.second, t)};
+    else
+      ++off;
+  }
+  if (share * off > returns) return {-infinity, 0.0};
+  return found.first > found.second ? std::pair(0.0, 0.0) : found;
+}
+
 PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points,
                     const PointTimes& times) {
   if (const std::optional<PointClock> clock = find_clock(cloud, field, points, times)) return *clock;
@@ -116,7 +122,9 @@ PointClock clock_of(const PointCloud& cloud, const PointField& field, const std:
                              "point times out where those of a bag's first scans are so");
   throw InputError({}, "field '" + field.name +
                            "' is not within 1 s of the stamp, be it in s, ms, us or ns, from the stamp or of the day "
-                           "(whole numbers: ns from the stamp); --without times leaves those of a bag out");
+                           "(whole numbers: ns from the stamp); --without times leaves those of a bag out; stamps of a "
+                           "folder's clouds may "
+                           "stand in times.txt");
 }
 
 bool TimeBaseSearch::add(const PointCloud& cloud) {
@@ -132,7 +140,7 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   const std::optional<PointClock> of_day = choice.of_day();
   const bool from_stamp = choice.plain() || choice.in_other_unit();
   if (of_day && from_stamp) {
-    last_ = {cloud.stamp, extent(cloud, *of_day, points).first + of_day->zero_ns};
+    last_ = {cloud.stamp, returns_extent(cloud, *of_day, points, longest_sweep_ns).first + of_day->zero_ns};
     if (!first_) first_ = last_;
     return true;
   }
@@ -152,16 +160,19 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   if (is_empty(cloud)) return ++without_times_ < most_without_times;
   check_cloud(cloud);
   const PointField* time = time_field(cloud);
-  if (time == nullptr) return false;
+  if (time == nullptr) {
+    unread_ = unread_times(cloud);
+    return false;
+  }
   if (last_stamp_ && cloud.stamp > *last_stamp_)
     spacings_ns_.push_back(static_cast<double>(cloud.stamp - *last_stamp_));
   last_stamp_ = cloud.stamp;
   const std::vector<CloudPoint> points = read_untimed(cloud);
-  const auto [first, last] = extent(cloud, {time, 1.0, 0.0}, points);
+  const auto [first, last] = returns_extent(cloud, {time, 1.0, 0.0}, points, unbounded);
   const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0, false});
   readable_ = readable_ && clock;
   if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
-  const auto [from, to] = clock ? extent(cloud, *clock, points) : std::pair(0.0, 0.0);
+  const auto [from, to] = clock ? returns_extent(cloud, *clock, points, longest_sweep_ns) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
   unit_ns_ = is_float && clock && clock->unit_ns != units_ns[0] ? clock->unit_ns : 0.0;
@@ -178,6 +189,7 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
 
 AssumedTimes SweepLengthSearch::found() const {
   AssumedTimes found = unit_found();
+  if (found.said.empty() && !unread_.empty()) found.said = unread_ + ": not read as times of points";
   const double unit_ns = found.times.unit_ns;
   const double end_ns = ends_.empty() ? 0.0 : unit_ns > 0.0 ? unit_ns * upper_median(ends_) : upper_median(ends_ns_);
   if (std::abs(end_ns) <= static_cast<double>(longest_sweep_ns)) found.times.end_ns = std::llround(end_ns);

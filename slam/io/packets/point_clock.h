@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "slam/io/packets/cloud_fields.h"
@@ -20,6 +21,11 @@ struct PointClock {
     return unit_ns * number_at(point + field->offset, field->type) - zero_ns;
   }
 };
+
+/// Least and greatest time of the returns, ns from the stamp, of all within most_ns of it: some drivers give a few no
+/// time. (0, 0) without a return, (-inf, 0) where more than one in a hundred is not within.
+[[nodiscard]] std::pair<double, double> returns_extent(const PointCloud& cloud, const PointClock& clock,
+                                                       const std::vector<CloudPoint>& points, double most_ns);
 
 /// By which the times of a cloud's points are read. Throws InputError without a mark where none puts all returns within
 /// 1 s of the stamp.

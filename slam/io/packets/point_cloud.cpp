@@ -30,10 +30,14 @@ std::vector<CloudPoint> read_points(const PointCloud& cloud, const PointTimes& t
   const PointField* time = time_field(cloud);
   if (time == nullptr || times.ignored) return points;
   const PointClock clock = clock_of(cloud, *time, points, times);
+  // What stands where no return is may be anything. Where that is no time, such a slot has that of the one before.
+  Nanoseconds known = std::llround(returns_extent(cloud, clock, points, longest_sweep_ns).first);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double t = clock.nanoseconds(bytes_of(cloud, i));
-    // What stands where no return is may be anything.
-    if (points[i].valid || std::abs(t) <= static_cast<double>(longest_sweep_ns)) points[i].time = std::llround(t);
+    const bool is_time = std::abs(t) <= static_cast<double>(longest_sweep_ns);
+    if (is_time) known = std::llround(t);
+    points[i].time = known;
+    points[i].valid = points[i].valid && is_time;
   }
   return points;
 }

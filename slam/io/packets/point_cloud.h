@@ -96,6 +96,7 @@ class SweepLengthSearch {
   bool readable_ = true;            ///< of all clouds so far
   double unit_ns_ = 0.0;            ///< of the last cloud's times, where they are neither s nor whole numbers; else 0
   int without_times_ = 0;           ///< clouds
+  std::string unread_;              ///< fields that may be times, of a cloud without others
 };
 
 /// What a cloud is written as.

@@ -13,7 +13,9 @@ TEST(TopicClocksTest, SaysHowFarStampsAreApart) {
     TopicClocks clocks;
     clocks.add_scan(scan, 100 * second);
     clocks.add_odometry(odometry, 103 * second);
-    clocks.add_scan(500 * second, 100 * second);  // the first one counts
+    clocks.add_scan(scan + second, 101 * second);
+    clocks.add_scan(500 * second, 100 * second);  // one of three may be wrong,
+    clocks.add_scan(500 * second, 100 * second);  // and later ones do not count
     return clocks.difference("/a", "/b");
   };
   EXPECT_EQ(said(137 * second, 103 * second),
@@ -22,6 +24,14 @@ TEST(TopicClocksTest, SaysHowFarStampsAreApart) {
             "the stamps on /a are 50.0 s behind those on /b, by the times of recording");
   EXPECT_EQ(said(100 * second, 101 * second), "");            // an odometry that takes long to compute
   EXPECT_EQ(said(3 * 3600 * second, 3 * 3600 * second), "");  // a bag recorded again
+}
+
+TEST(TopicClocksTest, AFirstScanWithoutAStampTellsNothing) {
+  TopicClocks clocks;
+  clocks.add_scan(0, 100 * second);
+  clocks.add_odometry(100 * second, 100 * second);
+  for (Nanoseconds t : {101 * second, 102 * second}) clocks.add_scan(t, t);
+  EXPECT_EQ(clocks.difference("/a", "/b"), "");
 }
 
 TEST(TopicClocksTest, OneTopicTellsNothing) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -35,6 +37,44 @@ TEST(BinCloud, HoldsTheRingOfNuScenes) {
   EXPECT_EQ(cloud.width, 2U);
   EXPECT_EQ(cloud.fields.back().name, "ring");
   EXPECT_GT(scan_of(cloud).rings, 1);
+}
+
+/// A turn of 1,000 points in a hall, of so many numbers each.
+std::vector<float> turn_of(std::size_t numbers) {
+  std::vector<float> values;
+  for (int i = 0; i < 1000; ++i) {
+    const float angle = 0.00628F * static_cast<float>(i);
+    const std::vector<float> point = {9 * std::cos(angle),
+                                      6 * std::sin(angle),
+                                      -0.5F,
+                                      static_cast<float>(i % 7 * 9),
+                                      7.0F,
+                                      0.1F * static_cast<float>(i % 11)};
+    values.insert(values.end(), point.begin(), point.begin() + static_cast<std::ptrdiff_t>(numbers));
+  }
+  return values;
+}
+
+TEST(BinCloud, PointsOfOtherNumbersAreRefused) {
+  const Folder folder;
+  write_floats(folder / "4.bin", turn_of(4));
+  EXPECT_EQ(read_bin_cloud(folder / "4.bin").width, 1000U);
+  for (const std::size_t numbers : {3U, 5U, 6U}) {
+    const std::string file = folder / (std::to_string(numbers) + ".bin");
+    write_floats(file, turn_of(numbers));
+    EXPECT_NE(input_error([&] {
+                (void)read_bin_cloud(file);
+              }).find("its points seem to be of " + std::to_string(numbers) + " float32 each"),
+              std::string::npos)
+        << numbers;
+  }
+  std::vector<float> by_axis;
+  const std::vector<float> points = turn_of(4);
+  for (std::size_t axis = 0; axis < 4; ++axis)
+    for (std::size_t i = axis; i < points.size(); i += 4) by_axis.push_back(points[i]);
+  const std::string file = folder / "axes.bin";
+  write_floats(file, by_axis);
+  EXPECT_NE(input_error([&] { (void)read_bin_cloud(file); }).find("all x, then all y"), std::string::npos);
 }
 
 TEST(BinCloud, WhatCannotBePointsIsRefusedByName) {

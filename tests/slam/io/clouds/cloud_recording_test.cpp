@@ -90,7 +90,8 @@ TEST(CloudRecording, TakesTimesFromZeroToOneAsSharesOfAPeriod) {
     write_cloud_file(folder / name, cloud_with({"x", "y", "z", "time"}, points));
   }
   const auto recording = open_cloud_folder(folder.path());
-  ASSERT_EQ(recording->assumed().size(), 1U);
+  ASSERT_EQ(recording->assumed().size(), 2U);
+  EXPECT_NE(recording->assumed().back().find("one each 0.1 s is assumed"), std::string::npos);
   EXPECT_NE(recording->assumed().front().find("shares of a sweep of 100 ms"), std::string::npos);
   SensorFrame frame;
   for (int k = 0; k < 3; ++k) {
@@ -157,6 +158,17 @@ TEST(CloudRecording, ReadsKittisSequences) {
     EXPECT_TRUE(recording->left_out().empty());
     EXPECT_TRUE(recording->assumed().empty());
   }
+}
+
+TEST(CloudRecording, TakesNamesThatAreStampsForThem) {
+  const Folder folder;
+  write_clouds(folder, {"1700000000000000000.pcd", "1700000000200000000.pcd", "1700000000450000000.pcd"});
+  const auto recording = open_cloud_folder(folder.path());
+  EXPECT_EQ(recording->assumed(), std::vector<std::string>{"the names of the clouds are taken for their stamps"});
+  const std::vector<Nanoseconds> stamps = stamps_in(*recording);
+  ASSERT_EQ(stamps.size(), 3U);
+  EXPECT_EQ(stamps[1] - stamps[0], 200'000'000);
+  EXPECT_EQ(stamps[2] - stamps[1], 250'000'000);
 }
 
 TEST(CloudRecording, SaysThatTheRateOfBareCloudsIsNotKnown) {

@@ -31,6 +31,26 @@ TEST(CloudTimes, OtherLinesAreRefusedByNumber) {
         << line;
 }
 
+TEST(CloudTimes, MayBeTheNamesOfTheClouds) {
+  const std::vector<Nanoseconds> stamps = {1'700'000'000'000'000'000, 1'700'000'000'200'000'000};
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"1700000000.0.pcd", "1700000000.2.pcd"},
+                                                {"1700000000.pcd", "1700000000.200000000.pcd"},
+                                                {"1700000000_000000000.pcd", "1700000000_200000000.pcd"},
+                                                {"1700000000000.bin", "1700000000200.bin"},
+                                                {"1700000000000000.ply", "1700000000200000.ply"},
+                                                {"1700000000000000000.pcd.bin", "1700000000200000000.pcd.bin"}})
+    EXPECT_EQ(stamps_in(names), stamps) << names.front();
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"1700000000.0.pcd"},
+                                                {"0.pcd", "1.pcd"},
+                                                {"17.5.pcd", "17.6.pcd"},
+                                                {"1700000000.2.pcd", "1700000000.2.pcd"},
+                                                {"0000000001.bin", "0000000002.bin"},
+                                                {"1700000000_1.pcd", "1700000000_2.pcd"},
+                                                {"17000000001.pcd", "17000000002.pcd"},
+                                                {"1700000000.0.pcd", "a.pcd"}})
+    EXPECT_TRUE(stamps_in(names).empty()) << names.front();
+}
+
 TEST(CloudTimes, StandBesideTheCloudsOrTheirFolder) {
   const Folder folder;
   const std::string inner = folder / "velodyne";
