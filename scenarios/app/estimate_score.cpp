@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bim/config/printable.h"
@@ -17,6 +19,7 @@
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/metrics/quaternion_order.h"
+#include "scenarios/metrics/reference_axes.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
@@ -57,13 +60,29 @@ TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std
     throw InputError({file, 0, 0}, "has fewer than " + std::to_string(score::ReferenceRules().least_matched) +
                                        " poses at times of the estimate; it is of " + span_of(reference) +
                                        ", the estimate of " + span_of(poses));
-  const slam::TrajectoryForm form = slam::trajectory_form(read_text_file(file));
-  const auto other = score::score_by_reference(slam::in_other_order(reference, form), poses);
-  if (const std::string why =
-          score::wrong_order(form, scores.reference->rpe_1m_rmse_m, other ? other->rpe_1m_rmse_m : std::nullopt);
-      !why.empty())
-    throw InputError({file, 0, 0}, why);
   return scores;
+}
+
+void check_order(const Poses& poses, const Poses& reference, const std::string& file) {
+  if (reference.empty()) return;
+  const slam::TrajectoryForm form = slam::trajectory_form(read_text_file(file));
+  const auto as_read = score::score_by_reference(reference, poses);
+  const auto other = score::score_by_reference(slam::in_other_order(reference, form), poses);
+  const auto over_a_metre = [](const auto& by) { return by ? by->rpe_1m_rmse_m : std::nullopt; };
+  if (const std::string why = score::wrong_order(form, over_a_metre(as_read), over_a_metre(other)); !why.empty())
+    throw InputError({file, 0, 0}, why);
+}
+
+/// Turns the axes of a reference to the robot's where they are another body's, and says what was done; empty: nothing.
+std::string turn_to_robot(const Poses& poses, Poses& reference, Tree& tree) {
+  if (reference.empty()) return {};
+  auto turned = score::turned_to_robot(reference, poses);
+  if (!turned) return {};
+  reference = std::move(turned->reference_W);
+  const double degrees = turned->turned_rad * 180.0 / std::numbers::pi;
+  tree.set("reference_turned_deg", degrees);
+  return "the reference's axes are turned by " + std::to_string(std::lround(degrees)) +
+         " degrees against the robot's, and are turned back";
 }
 
 Tree to_json(const TrajectoryScores& scores) {
@@ -242,14 +261,20 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   refuse_altered(dir, altered, unchecked);
   if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
-  const Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
+  Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
+  check_order(method.causal, reference, reference_file);
+  Tree tree = Tree::map();
+  tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
+  const bool positions_alone = !reference.empty() && score::is_without_orientation(reference, method.causal);
+  const std::string axes = positions_alone ? std::string(
+                                                 "the reference has one orientation throughout: errors of steps, of "
+                                                 "rotation and over a metre say nothing")
+                                           : turn_to_robot(method.causal, reference, tree);
   const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
   const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
   const Covered causal_covered = covered(method.causal, method.scans, reference);
   const Covered last_covered = covered(method.estimate.trajectory, method.scans, reference);
 
-  Tree tree = Tree::map();
-  tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
   Tree names = Tree::list();
   for (const std::string& name : altered) names.push(name);
   for (const std::string& name : unchecked_by_estimate(dir)) names.push("recording/" + name);
@@ -265,7 +290,7 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
                               .set("length_m", score::score_path(reference).length_m)
                               .set("share", *causal_covered.reference_share));
   std::optional<score::Silence> silence;
-  if (method.scans > 0) silence = score::score_silence(reference, method.causal, method.lost);
+  if (method.scans > 0 && !positions_alone) silence = score::score_silence(reference, method.causal, method.lost);
   if (silence) tree.set("silence", to_json(*silence));
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));
@@ -280,6 +305,7 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   if (causal_covered.poses < causal_covered.scans) text += "; " + causal_covered.words_of_poses();
   if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
   if (causal_covered.reference_share.value_or(1.0) < 1.0) text += "; " + causal_covered.words_of_reference();
+  if (!axes.empty()) text += "\n" + axes;
   if (silence && silence->off_at_s) text += "\n" + words_of(*silence);
   text += "\n          poses   path m straight   vert. m";
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";

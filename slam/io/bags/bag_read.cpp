@@ -68,8 +68,9 @@ class BagRecording final : public Recording {
                     " no moving odom -> base_link to which the LiDAR is joined");
     if (impossible_fixed_ > 0) all.push_back(ros::impossible_transforms("/tf_static", impossible_fixed_));
     const auto scans = [&](std::int64_t n) { return topics_.points + ": " + share_of(n, scans_.read(), "scans"); };
-    if (const std::string apart = clocks_.difference(topics_.points, topics_.odometry); !apart.empty())
-      all.push_back(apart + "; both must be on one clock");
+    for (const std::string& apart :
+         {clocks_.difference(topics_.points, topics_.odometry), clocks_.imu_difference(topics_.points, topics_.imu)})
+      if (!apart.empty()) all.push_back(apart + "; both must be on one clock");
     if (early_ > 0) all.push_back(scans(early_) + " left out: before the first odometry");
     if (without_rings_ > 0) all.push_back(scans(without_rings_) + " read " + std::string(one_ring_number));
     return all;
@@ -330,7 +331,7 @@ class BagRecording final : public Recording {
       }
     } else if (is_imu(topic.type)) {
       if (const auto said = messages_.possible(message, [&] { return ros::read_imu(message.bytes, topic.encoding); }))
-        take(*said);
+        take(*said, message.time);
       else
         imu_.leave_out();
     }
@@ -349,12 +350,11 @@ class BagRecording final : public Recording {
       covariances_.add({stamp, *covariance}, topics_.odometry);
   }
 
-  void take(const ros::FramedImu& said) {
+  void take(const ros::FramedImu& said, Nanoseconds recorded) {
     std::optional<Imu> record = imu_of(said);
-    if (!record) {
-      unjoined_imu_ = said.frame;
-      return;
-    }
+    if (!record) unjoined_imu_ = said.frame;
+    if (!record) return;
+    clocks_.add_imu(record->stamp, recorded);
     record->stamp = shifted(record->stamp);
     if (!gravity_) gravity_ = gravity_in(*record);
     record->linear_acceleration_R *= *gravity_;

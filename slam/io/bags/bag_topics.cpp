@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "bim/errors.h"
+#include "slam/io/bags/frame_tree.h"
+#include "slam/io/bags/ros_message.h"
 
 namespace plumbline::slam {
 
@@ -29,19 +34,51 @@ std::string first_topic(const MessageSource& source, IsType is) {
   return names.empty() ? std::string() : names.front();
 }
 
-/// The first topic of clouds, but none that has few while another has many.
+/// The frame that the first message of each topic of clouds is in, and the frames that are no LiDAR's: by convention,
+/// and those in which the robot's poses are.
+struct CloudFrames {
+  std::map<std::string, std::string> of_topics;
+  std::set<std::string> of_worlds = {"map", "odom", "world", "earth", "camera_init"};
+
+  void add(const BagTopic& topic, const RawMessage& message) {
+    try {
+      if (is_odometry(topic.type))
+        of_worlds.insert(plain_frame(ros::read_odometry(message.bytes, topic.encoding).X_OR.parent));
+      else if (!of_topics.contains(topic.name))
+        of_topics[topic.name] =
+            plain_frame(is_livox(topic.type) ? ros::read_livox(message.bytes, topic.encoding).frame
+                                             : ros::read_cloud(message.bytes, topic.encoding).frame);
+    } catch (const InputError&) {
+      return;  // said where it is read
+    }
+  }
+  /// Of clouds that a method has put into its map, as FAST-LIO publishes them.
+  [[nodiscard]] bool is_mapped(const std::string& name) const {
+    const auto frame = of_topics.find(name);
+    return frame != of_topics.end() && of_worlds.contains(frame->second);
+  }
+};
+
+/// The first topic of clouds, but none that has few while another has many, and none in a map's frame beside others.
 std::string first_scans(MessageSource& source) {
   constexpr int enough = 40;  // of one topic to compare the others with it
   constexpr int few = 8;      // times fewer; a LiDAR at 5 Hz may stand beside a camera at 30 Hz
   const std::vector<std::string> names = topics_of(source, is_cloud);
   if (names.size() < 2) return names.empty() ? std::string() : names.front();
+  std::vector<std::string> selected = topics_of(source, is_odometry);
+  selected.insert(selected.end(), names.begin(), names.end());
   std::map<std::string, int> counts;
+  CloudFrames frames;
   int most = 0;
-  source.select(names);
-  for (RawMessage message; most < enough && source.next(message);)
-    most = std::max(most, ++counts[source.topics()[message.topic].name]);
-  for (const std::string& name : names)
-    if (few * counts[name] >= most) return name;
+  source.select(selected);
+  for (RawMessage message; most < enough && source.next(message);) {
+    const BagTopic& topic = source.topics()[message.topic];
+    frames.add(topic, message);
+    if (is_cloud(topic.type)) most = std::max(most, ++counts[topic.name]);
+  }
+  for (const bool mapped : {false, true})
+    for (const std::string& name : names)
+      if (few * counts[name] >= most && frames.is_mapped(name) == mapped) return name;
   return names.front();
 }
 

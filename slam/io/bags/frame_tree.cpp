@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slam/io/bags/frame_tree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "slam/io/bags/record_queue.h"
 
@@ -16,33 +18,29 @@ constexpr int longest_chain = 16;
 std::string plain_frame(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 void FrameTree::add(const ros::Transform& transform) {
-  mounts_[plain_frame(transform.child)] = {plain_frame(transform.parent), transform.X};
+  mounts_[plain_frame(transform.child)][plain_frame(transform.parent)] = transform.X;
 }
 
 std::optional<Pose> FrameTree::find(const std::string& frame, const std::string& base) const {
-  std::string common = plain_frame(base);
-  if (const std::optional<Pose> X = find_above(plain_frame(frame), common)) return X;
-  for (int i = 0; i < longest_chain; ++i) {
-    const auto mount = mounts_.find(common);
-    if (mount == mounts_.end()) return std::nullopt;
-    common = mount->second.parent;
-    const std::optional<Pose> X_CB = find_above(plain_frame(base), common);
-    if (const std::optional<Pose> X_CF = find_above(plain_frame(frame), common); X_CB && X_CF)
-      return X_CB->inverse() * *X_CF;
-  }
+  const std::vector<Above> above_frame = all_above(plain_frame(frame));
+  for (const Above& of_base : all_above(plain_frame(base)))
+    for (const Above& of_frame : above_frame)
+      if (of_frame.name == of_base.name) return of_base.X.inverse() * of_frame.X;
   return std::nullopt;
 }
 
-std::optional<Pose> FrameTree::find_above(const std::string& frame, const std::string& there) const {
-  std::string here = frame;
-  Pose X;  // of `frame` in `here`
-  for (int i = 0; here != there; ++i) {
-    const auto mount = mounts_.find(here);
-    if (mount == mounts_.end() || i == longest_chain) return std::nullopt;
-    X = mount->second.X * X;
-    here = mount->second.parent;
+std::vector<FrameTree::Above> FrameTree::all_above(const std::string& frame) const {
+  std::vector<Above> above = {{frame, Pose(), 0}};
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    const auto mounts = mounts_.find(above[i].name);
+    if (mounts == mounts_.end() || above[i].joints == longest_chain) continue;
+    for (const auto& [parent, X] : mounts->second) {
+      const bool known = std::any_of(above.begin(), above.end(),
+                                     [&, &name = parent](const Above& other) { return other.name == name; });
+      if (!known) above.push_back({parent, X * above[i].X, above[i].joints + 1});
+    }
   }
-  return X;
+  return above;
 }
 
 void StillJoints::add(const ros::Transform& transform) {

@@ -24,15 +24,16 @@ class FrameTree {
   [[nodiscard]] bool empty() const { return mounts_.empty(); }
 
  private:
-  /// Of a frame in one above it, or in itself.
-  [[nodiscard]] std::optional<Pose> find_above(const std::string& frame, const std::string& above) const;
-
-  struct Mount {
-    std::string parent;
-    Pose X;
+  struct Above {
+    std::string name;
+    Pose X;  ///< of the frame in it
+    int joints = 0;
   };
+  /// A frame and those above it, the nearest first.
+  [[nodiscard]] std::vector<Above> all_above(const std::string& frame) const;
 
-  std::map<std::string, Mount> mounts_;  ///< by child
+  /// By child and parent: some drivers give a frame two parents, as the robot and the map.
+  std::map<std::string, std::map<std::string, Pose>> mounts_;
 };
 
 /// Joints on /tf that are published again and again and never move, as ROS 1 publishes mounts.

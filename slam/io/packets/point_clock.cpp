@@ -48,6 +48,16 @@ class ClockChoice {
   [[nodiscard]] std::optional<PointClock> in_unit(double unit_ns) const {
     return fitting({&field_, unit_ns, 0.0}, 0.0);
   }
+  /// By how much the times of the returns are ahead of the stamp, s, where they last as long as a scan in some unit.
+  [[nodiscard]] std::optional<double> ahead_of_stamp_s() const {
+    if (field_.type != PointType::f64) return std::nullopt;
+    for (const double unit : units_ns) {
+      const auto [first, last] = returns_extent(cloud_, {&field_, unit, 0.0}, points_, unbounded);
+      if (std::isfinite(first) && last - first >= least_turn && last - first <= longest_sweep_ns)
+        return 1e-9 * (first - static_cast<double>(cloud_.stamp));
+    }
+    return std::nullopt;
+  }
   /// From the stamp, in a unit by which the times are of a scan, 5 ms to 1 s long.
   [[nodiscard]] std::optional<PointClock> in_other_unit() const {
     if (whole()) return std::nullopt;
@@ -116,6 +126,13 @@ std::pair<double, double> returns_extent(const PointCloud& cloud, const PointClo
 PointClock clock_of(const PointCloud& cloud, const PointField& field, const std::vector<CloudPoint>& points,
                     const PointTimes& times) {
   if (const std::optional<PointClock> clock = find_clock(cloud, field, points, times)) return *clock;
+  if (const auto ahead_s = ClockChoice(cloud, field, points).ahead_of_stamp_s()) {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "' are %.1f s %s the cloud's stamp; both must be on one clock",
+                  std::abs(*ahead_s), *ahead_s > 0.0 ? "ahead of" : "behind");
+    throw InputError({}, "times of field '" + field.name + text.data() +
+                             "; --without times leaves those of a bag out, and times.txt gives the stamps of a folder");
+  }
   if (times.unit_ns > 0.0)
     throw InputError({}, "field '" + field.name +
                              "' is not within 1 s of the stamp in the unit of the first scans; --without times leaves "

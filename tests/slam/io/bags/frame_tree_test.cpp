@@ -39,6 +39,20 @@ TEST(FrameTree, FindsAFrameOverOthers) {
   EXPECT_FALSE(frames.find("odd", "base").has_value()) << "a ring";
 }
 
+TEST(FrameTree, AFrameMayHaveTwoParents) {
+  for (const bool map_first : {true, false}) {
+    FrameTree frames;
+    const ros::Transform to_map{0, "map", "lidar", Pose::from_xyz_yaw({9.0, 0.0, 0.0}, 0.0)};
+    if (map_first) frames.add(to_map);
+    frames.add({0, "base_link", "lidar", Pose::from_xyz_yaw({1.0, 0.0, 0.0}, 0.0)});
+    if (!map_first) frames.add(to_map);
+    const std::optional<Pose> X = frames.find("lidar", "base_link");
+    ASSERT_TRUE(X.has_value());
+    EXPECT_EQ(X->t.x(), 1.0);
+    EXPECT_EQ(robot_above("lidar", frames), "base_link");
+  }
+}
+
 TEST(FrameTree, TurnsAnImuIntoTheRobot) {
   const std::optional<Imu> imu = in_robot({"/imu", measured}, mast(), "base");
   ASSERT_TRUE(imu.has_value());

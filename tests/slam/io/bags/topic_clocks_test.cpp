@@ -34,6 +34,16 @@ TEST(TopicClocksTest, AFirstScanWithoutAStampTellsNothing) {
   EXPECT_EQ(clocks.difference("/a", "/b"), "");
 }
 
+TEST(TopicClocksTest, AnImuMayBeOnAnotherClock) {
+  TopicClocks clocks;
+  clocks.add_scan(137 * second, 100 * second);
+  clocks.add_odometry(138 * second, 101 * second);
+  clocks.add_imu(100 * second, 100 * second);
+  EXPECT_EQ(clocks.difference("/a", "/b"), "");
+  EXPECT_EQ(clocks.imu_difference("/a", "/imu"),
+            "the stamps on /a are 37.0 s ahead of those on /imu, by the times of recording");
+}
+
 TEST(TopicClocksTest, OneTopicTellsNothing) {
   TopicClocks clocks;
   clocks.add_scan(0, 100 * second);

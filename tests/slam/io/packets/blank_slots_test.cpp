@@ -9,9 +9,12 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "bim/errors.h"
 #include "slam/io/packets/point_cloud.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/packets/made_cloud.h"
 
 namespace plumbline::slam {
@@ -74,6 +77,17 @@ TEST(PointCloud, AReturnWithoutATimeIsNone) {
     std::memcpy(&cloud.data[24 * column + 16], &wrong, sizeof wrong);
   }
   EXPECT_THROW((void)scan_of(cloud), InputError) << "3 of 160";
+}
+
+TEST(PointCloud, TimesOnAnotherClockAreToldApart) {
+  for (const auto& [later_s, said] :
+       {std::pair(-37.0, "are 36.9 s ahead of"), std::pair(500.0, "are 500.1 s behind")}) {
+    PointCloud cloud = late_stamped(true, {});
+    cloud.stamp += std::llround(1e9 * later_s);
+    const std::string why = input_error([&] { (void)scan_of(cloud); });
+    EXPECT_NE(why.find("times of field 'timestamp' " + std::string(said) + " the cloud's stamp"), std::string::npos)
+        << why;
+  }
 }
 
 TEST(PointCloud, FieldsThatMayBeTimesAreNamedWhereNoneIsRead) {
