@@ -51,6 +51,12 @@ std::vector<std::string> OdometryAxes::warnings() const {
     all.push_back(
         "odometry turns against the gyro: one of the two is in other axes than its frame says, "
         "such as NED or left-handed ones");
+  constexpr double degree = 180.0 / std::numbers::pi, within = 1.25, together = 0.5;
+  const double ratio = odometry_squares_ > 0.0 ? product_ / odometry_squares_ : 0.0;
+  if (turned_ > least_turned && product_ > together * std::sqrt(odometry_squares_ * gyro_squares_) &&
+      ratio > degree / within && ratio < degree * within)
+    all.push_back("the gyro turns " + format_number(std::round(ratio)) +
+                  " times as fast as odometry: it seems to be in degrees per second, and radians are meant");
   return all;
 }
 

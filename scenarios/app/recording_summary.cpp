@@ -52,6 +52,7 @@ std::string words_of(const slam::Taken& taken, const ScansRead& scans, bool has_
       text += "; no mount, so that the robot's frame is the LiDAR's";
   }
   text += has_odometry ? "; odometry " + taken.odometry : "; no odometry";
+  if (has_odometry && !taken.robot.empty()) text += " of " + taken.robot;
   if (!taken.imu.empty()) text += "; IMU " + taken.imu;
   while (text.ends_with(' ')) text.pop_back();
   return printable(text);
@@ -66,6 +67,7 @@ Tree to_tree(const slam::Taken& taken, const ScansRead& scans) {
   if (!taken.odometry.empty()) tree.set("odometry", taken.odometry);
   if (!taken.imu.empty()) tree.set("imu", taken.imu);
   if (!taken.frame.empty()) tree.set("frame", taken.frame);
+  if (!taken.robot.empty()) tree.set("robot", taken.robot);
   tree.set("mount", slam::names_of(taken.mount)[static_cast<std::size_t>(taken.mount)]);
   return tree.set("scans", scans.count).set("rings", scans.rings).set("point_times", scans.timed);
 }

@@ -86,7 +86,7 @@ TEST_F(Ros2, WhatWasTakenIsSaid) {
   EXPECT_EQ(bag.code, 0) << bag.err;
   EXPECT_EQ(
       bag.out.rfind("/velodyne_points (not /other/points): 49 scans, 16 rings, points with times; frame velodyne; "
-                    "mount from /tf_static; odometry /odom; IMU /imu/data\n",
+                    "mount from /tf_static; odometry /odom of base_link; IMU /imu/data\n",
                     0),
       0U)
       << bag.out;

@@ -84,7 +84,7 @@ class BagRecording final : public Recording {
   }
   [[nodiscard]] Taken taken() const override {
     const std::string imu = unjoined_imu_ ? std::string() : topics_.imu;
-    return {topics_.points, topics_.odometry, imu, other_clouds(*source_, topics_.points), lidar_, mount_};
+    return {topics_.points, topics_.odometry, imu, other_clouds(*source_, topics_.points), lidar_, mount_, base_};
   }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {

@@ -94,7 +94,10 @@ std::optional<Nanoseconds> stamp_in(std::string_view name) {
 std::vector<Nanoseconds> stamps_in(const std::vector<std::string>& names) {
   std::vector<Nanoseconds> stamps;
   for (const std::string& name : names) {
-    const std::optional<Nanoseconds> stamp = stamp_in(name);
+    std::optional<Nanoseconds> stamp = stamp_in(name);
+    // As nuScenes has it: a name before the stamp.
+    if (const std::size_t bar = name.rfind('_'); !stamp && bar != std::string::npos)
+      stamp = stamp_in(std::string_view(name).substr(bar + 1));
     if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
     stamps.push_back(*stamp);
   }

@@ -25,6 +25,7 @@ struct Taken {
   std::vector<std::string> other_points;     ///< topics that could have been taken
   std::string frame;                         ///< of the points
   MountSource mount = MountSource::unknown;  ///< unknown: R is the LiDAR's frame
+  std::string robot;                         ///< R, by its name in the recording
 };
 
 /// Records of a simulated or a real robot, read as a stream, in memory that hardly grows with its length. What comes

@@ -42,6 +42,13 @@ TEST(OdometryAxes, ThatTurnAgainstTheGyroAreSaid) {
   EXPECT_EQ(warnings[0].rfind("odometry turns against the gyro", 0), 0U) << warnings[0];
 }
 
+TEST(OdometryAxes, AGyroInDegreesIsSaid) {
+  const std::vector<std::string> warnings = warnings_of(0.5, 0.5 * 180.0 / std::numbers::pi);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("the gyro turns 57 times as fast as odometry", 0), 0U) << warnings[0];
+  EXPECT_TRUE(warnings_of(0.5, 1.0).empty()) << "a gyro of another scale is none in degrees";
+}
+
 TEST(OdometryAxes, ThatDoNotPointUpAreSaid) {
   const Pose down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())), {}};
   const std::vector<std::string> warnings = warnings_of(0.5, 0.5, down);

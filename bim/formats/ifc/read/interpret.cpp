@@ -226,6 +226,10 @@ void Interpreter::sort_all() {
 
 void Interpreter::add_missing_rooms() {
   const std::vector<Room> given = building_.rooms;
+  const bool any_space = std::any_of(model_.products.begin(), model_.products.end(), [](const StepProduct& product) {
+    return product.kind == StepClass::space && product.space_use == SpaceUse::room;
+  });
+  const std::string none = any_space ? "no space of the file has a body that can be read" : "the file has no spaces";
   const BoxIndex given_boxes = boxes_of(given);
   std::optional<std::vector<FloorPiece>> floors;  // of the whole building, once it is known that rooms are missing
   for (std::size_t i = 0; i < building_.storeys.size(); ++i) {
@@ -258,14 +262,13 @@ void Interpreter::add_missing_rooms() {
                         std::any_of(building_.obstacles.begin(), building_.obstacles.end(), is_front)) &&
                        std::any_of(building_.slabs.begin(), building_.slabs.end(), stands_here);
     if (rooms.empty() && built && given.empty())
-      building_.warnings.push_back(
-          {building_.storeys[i].id, "no_rooms",
-           "the file has no spaces, and walls enclose no room on this storey; no route of rooms goes there"});
-    const std::string no_spaces = " has no spaces; walls enclose this";
+      building_.warnings.push_back({building_.storeys[i].id, "no_rooms",
+                                    none + ", and walls enclose no room on this storey; no route of rooms goes there"});
     const std::vector<bool> around = rooms_around_others(rooms);
     for (std::size_t k = 0; k < rooms.size(); ++k) {
       const std::string& id = rooms[k].id;
-      building_.warnings.push_back({id, "inferred_room", (given.empty() ? "the file" : "the storey") + no_spaces});
+      building_.warnings.push_back(
+          {id, "inferred_room", (given.empty() ? none : "the storey has no spaces") + "; walls enclose this"});
       if (around[k])
         building_.warnings.push_back(
             {id, "room_hole",

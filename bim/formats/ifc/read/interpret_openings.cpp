@@ -104,7 +104,9 @@ void Interpreter::add_opening(const StepProduct& product, int wall, const std::v
   opening.solid = solids.front();
   opening.parts.assign(solids.begin() + 1, solids.end());
   const Wall& host = building_.walls[static_cast<std::size_t>(wall)];
-  if (common_area(box_in(host, {*host.body}), box_in(host, solids), 0.0) <= 0.0) {
+  const WallBox of_host = box_in(host, {*host.body});
+  constexpr double sheet_m = 1e-3;  // a wall drawn as a surface has no thickness to meet
+  if (common_area(of_host, box_in(host, solids), of_host.across.length() < sheet_m ? sheet_m : 0.0) <= 0.0) {
     warn(filling != nullptr ? *filling : product, "opening_unused",
          filling != nullptr ? "its opening misses its wall and cuts nothing" : "misses its wall and cuts nothing");
   } else if (opening.kind == OpeningKind::door) {

@@ -4,8 +4,10 @@
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/reader/ReaderSTEP.h>
 
+#include <charconv>
 #include <cstdint>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "bim/config/utf8.h"
@@ -14,10 +16,35 @@
 namespace plumbline::bim {
 namespace {
 
+constexpr std::string_view long_code = "\\X4\\", code_end = "\\X0\\";
+
+/// "\X4\" and eight digits a character as "\X2\" with pairs of surrogates, and how long the former is; 0 where it is
+/// cut off or no character.
+std::pair<std::string, std::size_t> as_surrogates(std::string_view rest) {
+  constexpr std::size_t each = 8, most = 1000;  // characters
+  const std::size_t end = rest.substr(0, each * (most + 1)).find(code_end);
+  if (end == std::string_view::npos || end == long_code.size() || (end - long_code.size()) % each != 0) return {};
+  std::string units = "\\X2\\";
+  const auto append = [&](std::uint32_t unit) {
+    for (const unsigned shift : {12U, 8U, 4U, 0U}) units += "0123456789ABCDEF"[(unit >> shift) & 15U];
+  };
+  for (std::size_t at = long_code.size(); at < end; at += each) {
+    std::uint32_t code = 0;
+    const char* last = rest.data() + at + each;
+    const auto [stop, error] = std::from_chars(rest.data() + at, last, code, 16);
+    if (error != std::errc() || stop != last || code > 0x10FFFF) return {};
+    if (code >= 0x10000) append(0xD800U + ((code - 0x10000U) >> 10U));
+    append(code >= 0x10000 ? 0xDC00U + ((code - 0x10000U) & 0x3FFU) : code);
+  }
+  return {units + std::string(code_end), end + code_end.size()};
+}
+
 /// "\X\hh" for the escape "\S\c" or "\\" at the beginning of `rest`, and how long that is; 0 for all else, such as the
 /// single backslashes of a path.
 std::pair<std::string, std::size_t> as_code(std::string_view rest) {
   if (rest.starts_with("\\\\")) return {"\\X\\5C", 2};
+  if (rest.starts_with(long_code))
+    if (auto pair = as_surrogates(rest); pair.second > 0) return pair;
   if (rest.size() >= 4 && (rest[1] == 'X' || rest[1] == 'P') && rest[3] == '\\')
     return {std::string(rest.substr(0, 4)), 4};
   if (rest.starts_with("\\X\\")) return {std::string(rest.substr(0, 3)), 3};
@@ -32,7 +59,7 @@ std::pair<std::string, std::size_t> as_code(std::string_view rest) {
 }
 
 /// IFC++ takes what looks like the beginning of a comment for one in strings, too, keeps quotes and backslashes
-/// doubled, and does not decode "\S\c" before another backslash: there these are written as their codes.
+/// doubled, and does not decode "\S\c" before another backslash, nor "\X4\": there these are written as their codes.
 std::string with_plain_strings(std::string_view text) {
   constexpr std::string_view comment = "/*", star = "/\\X\\2A", quotes = "''", quote = "\\X\\27";
   std::string result;

@@ -2,6 +2,7 @@
 // What exporters write beside walls and rooms: a level for the top of each slab, provisions for voids, terrain, wells.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "bim/geometry/polygon_boolean.h"
@@ -111,6 +112,45 @@ TEST(Wells, InASlabLeaveARoomItsFloor) {
     EXPECT_EQ(piece.source, FloorSource::slab);
     EXPECT_FALSE(contains(piece.polygon, Eigen::Vector2d(4, 3))) << "in the well";
   }
+}
+
+TEST(Spaces, WithoutABodyAreNotSaidToBeMissing) {
+  for (const bool with_spaces : {true, false}) {
+    Sketch sketch;
+    two_rooms(sketch);
+    if (with_spaces) sketch.element("IFCSPACE", "$", "$,.ELEMENT.,.INTERNAL.,$");
+    const Building building = read(sketch);
+    const auto said = std::find_if(building.warnings.begin(), building.warnings.end(),
+                                   [](const Warning& warning) { return warning.kind == "inferred_room"; });
+    ASSERT_NE(said, building.warnings.end());
+    EXPECT_EQ(said->text, with_spaces ? "no space of the file has a body that can be read; walls enclose this"
+                                      : "the file has no spaces; walls enclose this");
+  }
+}
+
+TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
+  Sketch sketch;
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  const std::string face = sketch.shell({{{0, 3, 0}, {8, 3, 0}, {8, 3, 3}}, {{0, 3, 0}, {8, 3, 3}, {0, 3, 3}}});
+  const std::string wall = sketch.element("IFCWALL", sketch.shape(face), "$,$");
+  sketch.door(sketch.opening(wall, sketch.box(3, 2.8, 0, 4, 3.2, 2.1)));
+  sketch.door(sketch.opening(wall, sketch.box(5, 4.8, 0, 6, 5.2, 2.1)));
+  EXPECT_EQ(count(read(sketch), "opening_unused"), 1) << "the second one misses it";
+}
+
+TEST(Names, OfCharactersBeyondTheFirstPlaneAreDecoded) {
+  Sketch sketch;
+  two_rooms(sketch);
+  const std::string text = sketch.text();
+  const auto named = [&](const std::string& name) {
+    std::string other = text;
+    const std::size_t at = other.find("'s'", other.find("IFCBUILDINGSTOREY"));
+    return read_ifc_text(other.replace(at, 3, "'" + name + "'"), "s.ifc").storeys.front().name;
+  };
+  EXPECT_EQ(named("\\X4\\0001F3E0000000E9\\X0\\ 1"), "🏠é 1");
+  for (const char* odd : {"\\X4\\0001F3\\X0\\", "\\X4\\0001F3E0", "\\X4\\FFFFFFFF\\X0\\", "\\X4\\\\X0\\"})
+    EXPECT_EQ(named(std::string("a") + odd).front(), 'a') << odd;
 }
 
 }  // namespace
