@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/errors.h"
@@ -75,6 +76,22 @@ TEST(BinCloud, PointsOfOtherNumbersAreRefused) {
   const std::string file = folder / "axes.bin";
   write_floats(file, by_axis);
   EXPECT_NE(input_error([&] { (void)read_bin_cloud(file); }).find("all x, then all y"), std::string::npos);
+}
+
+TEST(BinCloud, PointsMayComeInAnyOrder) {
+  const Folder folder;
+  std::vector<float> as_fired, mixed;
+  for (int i = 0; i < 4000; ++i) {
+    const int laser = i % 16, k = i * 1223 % 4000;  // 4000 and 1223 have no common factor
+    const float up = 0.0349F * static_cast<float>(laser % 2 == 0 ? laser / 2 - 7 : laser / 2 + 1);
+    const float angle = 0.00157F * static_cast<float>(i), other = 0.00157F * static_cast<float>(k);
+    as_fired.insert(as_fired.end(), {9 * std::cos(angle), 6 * std::sin(angle), 8 * std::sin(up), 0.3F});
+    mixed.insert(mixed.end(), {9 * std::cos(other), 6 * std::sin(other), static_cast<float>(k % 16) * 0.2F, 0.5F});
+  }
+  for (const auto& [name, points] : {std::pair("fired.bin", as_fired), std::pair("mixed.bin", mixed)}) {
+    write_floats(folder / name, points);
+    EXPECT_EQ(read_bin_cloud(folder / name).width, 4000U) << name;
+  }
 }
 
 TEST(BinCloud, WhatCannotBePointsIsRefusedByName) {
