@@ -278,6 +278,13 @@ bool is_floor_covering(const Building& building, const Obstacle& obstacle, const
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : obstacle.body.vertices) box.extend(p);
   if (box.sizes().z() > config.covering_m) return false;
+  double level_m2 = 0.0;
+  for (const Eigen::Vector3i& t : obstacle.body.triangles) {
+    const auto p = [&](int k) { return obstacle.body.vertices[static_cast<std::size_t>(t[k])]; };
+    level_m2 += std::max(0.0, 0.5 * (p(1) - p(0)).cross(p(2) - p(0)).z());
+  }
+  if (level_m2 < std::max(config.least_covering_m2, config.covering_share * box.sizes().x() * box.sizes().y()))
+    return false;
   const auto meets = [&](double foot_m) {
     return foot_m >= box.min().z() - config.foot_m && foot_m <= box.max().z() + config.foot_m;
   };

@@ -37,8 +37,10 @@ struct FloorConfig {
   double at_room_m = 0.35;     ///< a piece this close to a room's lower end is that room's floor
   double covered_share = 0.5;  ///< a room with less of its area on such pieces has no slab
   double least_m2 = 0.01;      ///< smaller pieces are left out
-  double covering_m = 0.35;    ///< a thicker covering is none of a floor; a layer of a floor is up to 0.2 m thick
-  double foot_m = 0.08;        ///< a room begins this near above or below a floor covering, or within it
+  double covering_m = 0.35;  ///< a thicker covering is none of a floor; screed on insulation takes up to 0.2 m, assumed
+  double least_covering_m2 = 0.5;  ///< a smaller one is a skirting board or a mat,
+  double covering_share = 0.1;     ///< and so is one that covers less of the rectangle around it; both assumed
+  double foot_m = 0.08;            ///< a room begins this near above or below a floor covering, or within it
 };
 
 /// Whether a covering lies where a floor does: it is flat, and the lower end of a room above it, or its storey's

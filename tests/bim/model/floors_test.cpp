@@ -111,7 +111,12 @@ TEST(Floors, WhatCoversASlabIsTheFloorAndWhatHangsUnderOneIsNot) {
   Building building = two_storeys();
   building.slabs = {slab(box(0, 0, 6, 4), -0.2, 0.0), slab(box(0, 0, 6, 4), 2.8, 3.0)};
   building.obstacles = {covering(box(0, 0, 3, 4), 0.0, 0.1), covering(box(0, 0, 6, 4), 2.5, 2.52),
-                        covering(box(0, 0, 0.02, 4), 0.0, 2.5)};
+                        covering(box(0, 0, 0.02, 4), 0.0, 2.5), covering(box(0, 0, 6, 0.02), 0.0, 0.1)};
+  Obstacle around;  // a skirting board on all four sides
+  around.kind = "covering";
+  around.storey = 0;
+  around.body = extrude({{box(0, 0, 6, 4), {{{0.02, 0.02}, {0.02, 3.98}, {5.98, 3.98}, {5.98, 0.02}}}}}, 0.0, 0.1);
+  building.obstacles.push_back(around);
   for (const double room_m : {0.1, 0.0}) {
     Room room;
     room.storey = 0;
@@ -121,6 +126,8 @@ TEST(Floors, WhatCoversASlabIsTheFloorAndWhatHangsUnderOneIsNot) {
     EXPECT_TRUE(is_floor_covering(building, building.obstacles[0]));
     EXPECT_FALSE(is_floor_covering(building, building.obstacles[1])) << "a ceiling";
     EXPECT_FALSE(is_floor_covering(building, building.obstacles[2])) << "a cladding";
+    EXPECT_FALSE(is_floor_covering(building, building.obstacles[3])) << "a skirting board";
+    EXPECT_FALSE(is_floor_covering(building, building.obstacles[4])) << "one around the room";
     const std::vector<FloorPiece> pieces = floor_pieces(building);
     EXPECT_NEAR(at(pieces, {2, 2})->z_at({2, 2}), 0.1, 1e-9);
     EXPECT_NEAR(at(pieces, {5, 2})->z_at({5, 2}), 0.0, 1e-9);
