@@ -24,6 +24,8 @@
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
 #include "scenarios/run/run_files.h"
+#include "slam/io/bags/bag.h"
+#include "slam/io/bags/bag_poses.h"
 #include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
 
@@ -43,8 +45,26 @@ std::string span_of(const Poses& poses) {
   return slam::format_stamp(poses.front().stamp) + " to " + slam::format_stamp(poses.back().stamp) + " s";
 }
 
+/// FILE, or FILE,topic=TOPIC of a bag.
+struct ReferenceSource {
+  std::string file, topic;
+};
+
+ReferenceSource reference_source(const std::string& text) {
+  constexpr std::string_view key = ",topic=";
+  const std::size_t at = text.rfind(key);
+  if (at == std::string::npos) return {text, {}};
+  return {text.substr(0, at), text.substr(at + key.size())};
+}
+
 /// `estimate`: its stamps are those of a reference without times.
-Poses read_reference(const std::string& file, const Poses& estimate) {
+Poses read_reference(const ReferenceSource& source, const Poses& estimate) {
+  const std::string& file = source.file;
+  const bool is_bag = slam::is_bag(file);
+  if (is_bag && source.topic.empty())
+    throw InputError({file, 0, 0}, "is a bag; name the topic of its poses: --reference " + file + ",topic=/TOPIC");
+  if (!is_bag && !source.topic.empty()) throw InputError({file, 0, 0}, "is no bag, and 'topic' is of one");
+  if (is_bag) return slam::read_bag_poses(file, source.topic);
   std::vector<slam::Nanoseconds> scans;
   for (const slam::StampedPose& pose : estimate) scans.push_back(pose.stamp);
   Poses poses = slam::read_trajectory(read_text_file(file), file, scans);
@@ -63,8 +83,9 @@ TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std
   return scores;
 }
 
-void check_order(const Poses& poses, const Poses& reference, const std::string& file) {
-  if (reference.empty()) return;
+void check_order(const Poses& poses, const Poses& reference, const ReferenceSource& source) {
+  if (reference.empty() || !source.topic.empty()) return;
+  const std::string& file = source.file;
   const slam::TrajectoryForm form = slam::trajectory_form(read_text_file(file));
   const auto as_read = score::score_by_reference(reference, poses);
   const auto other = score::score_by_reference(slam::in_other_order(reference, form), poses);
@@ -250,7 +271,7 @@ std::vector<std::string> unchecked_by_estimate(const std::string& dir) {
   return names;
 }
 
-int score_estimate(const std::string& dir, const std::string& reference_file, const std::vector<GateSpec>& gates,
+int score_estimate(const std::string& dir, const std::string& reference_text, const std::vector<GateSpec>& gates,
                    bool unchecked) {
   check_names(gates);
   const std::vector<std::string> methods = estimates_in(dir);
@@ -261,8 +282,10 @@ int score_estimate(const std::string& dir, const std::string& reference_file, co
   refuse_altered(dir, altered, unchecked);
   if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
-  Poses reference = reference_file.empty() ? Poses() : read_reference(reference_file, method.causal);
-  check_order(method.causal, reference, reference_file);
+  const ReferenceSource source = reference_source(reference_text);
+  const std::string& reference_file = source.file;
+  Poses reference = reference_file.empty() ? Poses() : read_reference(source, method.causal);
+  check_order(method.causal, reference, source);
   Tree tree = Tree::map();
   tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
   const bool positions_alone = !reference.empty() && score::is_without_orientation(reference, method.causal);

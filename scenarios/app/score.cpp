@@ -202,9 +202,8 @@ Command add_score(CommandLine& program) {
       .takes("GATE");
   line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
   line.option("--reference", options->reference,
-              "of an estimate: true poses (TUM, KITTI or EuRoC) of the same frame of the robot, in any world frame, on "
-              "the estimate's "
-              "clock; both are aligned");
+              "of an estimate: true poses (TUM, KITTI or EuRoC, or BAG,topic=TOPIC) of the same frame of the robot, in "
+              "any world frame, on the estimate's clock; both are aligned");
   line.flag("--unchecked", options->unchecked,
             "takes files that were altered since they were written; results.json names them");
   line.footer(

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,16 @@ TEST_F(Ros2, EveryKindOfBagGivesTheSameEstimate) {
   EXPECT_TRUE(estimate("recording.mcap", "of_mcap") == expected);
   EXPECT_TRUE(estimate("rosbag2", "of_rosbag2") == expected);
   EXPECT_TRUE(estimate("rosbag2/rosbag2_0.db3", "of_db3") == expected);
+  const std::string out = folder_ / "of_mcap", bag = walk + "/recording.mcap";
+  const Outcome by_bag = plumbline({"score", out, "--reference", bag + ",topic=/ground_truth/odom"});
+  ASSERT_EQ(by_bag.code, 0) << by_bag.err;
+  const std::string by_topic = read_file(out + "/score.json");
+  ASSERT_EQ(plumbline({"score", out, "--reference", walk + "/truth.tum"}).code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(by_topic)["causal"]["ate_aligned_rmse_m"],
+              nlohmann::json::parse(read_file(out + "/score.json"))["causal"]["ate_aligned_rmse_m"], 1e-6);
+  const Outcome unnamed = plumbline({"score", out, "--reference", bag});
+  EXPECT_EQ(unnamed.code, 2);
+  EXPECT_NE(unnamed.err.find("is a bag; name the topic of its poses"), std::string::npos) << unnamed.err;
   // Of a recording without packets any bag is the recording.
   fs::remove(walk + "/lidar.pcap");
   fs::remove(walk + "/recording.bag");

@@ -52,9 +52,9 @@ class BagRecording final : public Recording {
 
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
-    for (const std::vector<std::string>& said :
-         {source_->left_out(), scans_.left_out(topics_.points, "scans"),
-          odometry_.left_out(topics_.odometry, "records"), imu_.left_out(topics_.imu, "records")})
+    for (const std::vector<std::string>& said : {source_->left_out(), scans_.left_out(topics_.points, "scans"),
+                                                 odometry_.left_out(topics_.odometry, "records"),
+                                                 imu_.left_out(topics_.imu, "records"), frames_.left_out("/tf_static")})
       all.insert(all.end(), said.begin(), said.end());
     if (scan_frame_.others() > 0)
       all.push_back(topics_.points + " left out: " + scan_frame_.others_of(scans_.read(), "scans"));
@@ -66,13 +66,12 @@ class BagRecording final : public Recording {
     if (const std::string tf = moving_transforms(*source_); topics_.odometry.empty() && !tf.empty())
       all.push_back("no odometry: no nav_msgs/Odometry, and on " + tf +
                     " no moving odom -> base_link to which the LiDAR is joined");
-    if (impossible_fixed_ > 0) all.push_back(ros::impossible_transforms("/tf_static", impossible_fixed_));
     const auto scans = [&](std::int64_t n) { return topics_.points + ": " + share_of(n, scans_.read(), "scans"); };
     for (const std::string& apart :
          {clocks_.difference(topics_.points, topics_.odometry), clocks_.imu_difference(topics_.points, topics_.imu)})
       if (!apart.empty()) all.push_back(apart + "; both must be on one clock");
     if (early_ > 0) all.push_back(scans(early_) + " left out: before the first odometry");
-    if (without_rings_ > 0) all.push_back(scans(without_rings_) + " read " + std::string(one_ring_number));
+    if (without_rings_ > 0) all.push_back(scans(without_rings_) + " read " + std::string(no_ring_numbers));
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {
@@ -147,7 +146,7 @@ class BagRecording final : public Recording {
   /// Reads the static transforms and the frame of the odometry, which is R's; returns that of the clouds.
   [[nodiscard]] std::string find_frames(const std::vector<std::string>& names) {
     const std::string fixed = static_transforms(*source_, topics_.points);
-    impossible_fixed_ = show_transforms(fixed, [&](const ros::Transform& t) { frames_.add(t); });
+    frames_.add_impossible(show_transforms(fixed, [&](const ros::Transform& t) { frames_.add(t); }));
     RawMessage message;
     std::string lidar;
     messages_.select(names);
@@ -384,10 +383,9 @@ class BagRecording final : public Recording {
   std::optional<std::string> unjoined_imu_;  ///< frame that /tf_static does not join to R
   std::optional<Nanoseconds> first_scan_;    ///< when it began
   std::optional<Pose> X_OB_;
-  std::optional<double> gravity_;     ///< m/s^2 of the unit that the IMU's accelerations are in
-  std::size_t impossible_fixed_ = 0;  ///< static transforms
-  std::int64_t early_ = 0;            ///< scans before the odometry
-  std::int64_t without_rings_ = 0;    ///< scans
+  std::optional<double> gravity_;   ///< m/s^2 of the unit that the IMU's accelerations are in
+  std::int64_t early_ = 0;          ///< scans before the odometry
+  std::int64_t without_rings_ = 0;  ///< scans
   bool started_ = false;
 };
 

@@ -13,12 +13,28 @@ namespace {
 
 constexpr int longest_chain = 16;
 
+bool is_apart(const Pose& a, const Pose& b, double most_m, double most_rad) {
+  return (a.t - b.t).norm() > most_m || a.q.angularDistance(b.q) > most_rad;
+}
+
 }  // namespace
 
 std::string plain_frame(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 void FrameTree::add(const ros::Transform& transform) {
-  mounts_[plain_frame(transform.child)][plain_frame(transform.parent)] = transform.X;
+  constexpr double rounding_m = 1e-4, rounding_rad = 1e-4;
+  const std::string child = plain_frame(transform.child), parent = plain_frame(transform.parent);
+  const auto [joint, is_new] = mounts_[child].try_emplace(parent, transform.X);
+  if (!is_new && is_apart(joint->second, transform.X, rounding_m, rounding_rad)) changed_[child] = parent;
+  joint->second = transform.X;
+}
+
+std::vector<std::string> FrameTree::left_out(const std::string& topic) const {
+  std::vector<std::string> all;
+  if (impossible_ > 0) all.push_back(ros::impossible_transforms(topic, impossible_));
+  for (const auto& [child, parent] : changed_)
+    all.push_back(topic + ": '" + child + "' lies in '" + parent + "' with several values; the last one is taken");
+  return all;
 }
 
 std::optional<Pose> FrameTree::find(const std::string& frame, const std::string& base) const {
@@ -51,7 +67,7 @@ void StillJoints::add(const ros::Transform& transform) {
   const Pose& X = joint.first.X;
   joint.repeated = true;
   joint.moved = joint.moved || plain_frame(transform.parent) != plain_frame(joint.first.parent) ||
-                (transform.X.t - X.t).norm() > still_m || transform.X.q.angularDistance(X.q) > still_rad;
+                is_apart(transform.X, X, still_m, still_rad);
 }
 
 std::vector<ros::Transform> StillJoints::found() const {

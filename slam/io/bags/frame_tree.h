@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -18,7 +19,12 @@ namespace plumbline::slam {
 /// Frames that stand still to each other, as /tf_static has them.
 class FrameTree {
  public:
+  /// A joint that is there already keeps the values of the last one that was added.
   void add(const ros::Transform& transform);
+  /// Transforms that hold numbers that are no pose.
+  void add_impossible(std::size_t transforms) { impossible_ += transforms; }
+  /// Sentences on what of the topic's transforms was not used.
+  [[nodiscard]] std::vector<std::string> left_out(const std::string& topic) const;
   /// Pose of a frame in `base`; nothing where no chain of at most 16 frames leads from each up to one frame.
   [[nodiscard]] std::optional<Pose> find(const std::string& frame, const std::string& base) const;
   [[nodiscard]] bool empty() const { return mounts_.empty(); }
@@ -34,6 +40,8 @@ class FrameTree {
 
   /// By child and parent: some drivers give a frame two parents, as the robot and the map.
   std::map<std::string, std::map<std::string, Pose>> mounts_;
+  std::map<std::string, std::string> changed_;  ///< joints with several values: child and parent
+  std::size_t impossible_ = 0;                  ///< transforms
 };
 
 /// Joints on /tf that are published again and again and never move, as ROS 1 publishes mounts.

@@ -142,7 +142,7 @@ class CloudRecording final : public Recording {
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
     if (late_ > 0) all.push_back(share_of_read(late_) + "left out: a time that is no later than that of one before");
-    if (without_rings_ > 0) all.push_back(share_of_read(without_rings_) + "read " + std::string(one_ring_number));
+    if (without_rings_ > 0) all.push_back(share_of_read(without_rings_) + "read " + std::string(no_ring_numbers));
     return all;
   }
   [[nodiscard]] std::vector<std::string> assumed() const override {

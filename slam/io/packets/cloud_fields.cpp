@@ -20,6 +20,7 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr double farthest_m = 1000.0;
+constexpr double ring_beyond = most_cloud_rings + 1.0;  ///< who counts from 1 has the last one, too
 
 std::size_t size_of(PointType type) {
   constexpr std::array<std::size_t, 9> sizes = {0, 1, 1, 2, 2, 4, 4, 4, 8};
@@ -31,6 +32,11 @@ T load(const std::uint8_t* bytes) {
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;
+}
+
+/// Some drivers leave the row's length at 0.
+std::uint64_t row_bytes(const PointCloud& cloud) {
+  return cloud.row_step > 0 ? cloud.row_step : std::uint64_t{cloud.point_step} * cloud.width;
 }
 
 const PointField* find_field(const PointCloud& cloud, std::initializer_list<std::string_view> names) {
@@ -103,8 +109,8 @@ void check_cloud(const PointCloud& cloud) {
   if (points == 0 && !cloud.data.empty()) throw InputError({}, "point cloud with bytes and without points");
   if (points > most_cloud_points)
     throw InputError({}, "point cloud of " + std::to_string(points) + " points; at most 4 million");
-  if (cloud.row_step < std::uint64_t{cloud.point_step} * cloud.width ||
-      cloud.data.size() < std::uint64_t{cloud.row_step} * cloud.height)
+  if (row_bytes(cloud) < std::uint64_t{cloud.point_step} * cloud.width ||
+      cloud.data.size() < row_bytes(cloud) * cloud.height)
     throw InputError({}, "point cloud with fewer bytes than its points need");
   for (const PointField& field : cloud.fields) {
     const auto type = static_cast<unsigned>(field.type);
@@ -115,7 +121,7 @@ void check_cloud(const PointCloud& cloud) {
 }
 
 const std::uint8_t* bytes_of(const PointCloud& cloud, std::size_t i) {
-  return &cloud.data[i / cloud.width * cloud.row_step + i % cloud.width * std::size_t{cloud.point_step}];
+  return &cloud.data[i / cloud.width * row_bytes(cloud) + i % cloud.width * std::size_t{cloud.point_step}];
 }
 
 std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
@@ -138,9 +144,8 @@ std::vector<CloudPoint> read_untimed(const PointCloud& cloud) {
     }
     if (ring != nullptr) {
       const double value = number_at(bytes + ring->offset, ring->type);
-      const bool is_ring = value >= 0.0 && value < most_cloud_rings + 1.0;  // who counts from 1 has the last one, too
-      if (!is_ring && point.valid) throw InputError({}, "point of a ring that is not within 0 to 127");
-      if (is_ring) point.ring = static_cast<int>(value);
+      const bool is_ring = value >= 0.0 && value < ring_beyond;
+      if (is_ring || (value >= 0.0 && point.valid)) point.ring = static_cast<int>(std::min(value, ring_beyond));
     }
   }
   return points;

@@ -87,8 +87,8 @@ int ring_count(const std::vector<CloudPoint>& points) {
   return most_cloud_rings;
 }
 
-/// Some drivers count from 1: where no point is of ring 0 and the last one is as many as a LiDAR has. Throws InputError
-/// where a return's ring is above 127 then.
+/// Some drivers count from 1: where no point is of ring 0 and the last one is as many as a LiDAR has. Of 128 rings the
+/// last one's number says so, even where the first one sees nothing.
 void count_from_zero(std::vector<CloudPoint>& points) {
   int lowest = most_cloud_rings, highest = 0;
   for (const CloudPoint& point : points) {
@@ -96,12 +96,11 @@ void count_from_zero(std::vector<CloudPoint>& points) {
     lowest = std::min(lowest, point.ring);
     highest = std::max(highest, point.ring);
   }
-  const bool from_one = lowest == 1 && (highest == 16 || highest == 32 || highest == 64 || highest == most_cloud_rings);
+  const bool from_one =
+      highest == most_cloud_rings || (lowest == 1 && (highest == 16 || highest == 32 || highest == 64));
   for (CloudPoint& point : points) {
     if (from_one && point.ring > 0) --point.ring;
-    if (point.ring < most_cloud_rings) continue;
-    if (point.valid) throw InputError({}, "point of a ring that is not within 0 to 127");
-    point.ring = -1;
+    if (point.ring >= most_cloud_rings) point.ring = -1;
   }
 }
 
@@ -331,10 +330,21 @@ bool is_one_ring_of_many(const std::vector<CloudPoint>& points) {
   return !elevations.empty() && elevations[elevations.size() - 1 - end] - elevations[end] > widest_cone_deg;
 }
 
+/// Rows of a solid-state LiDAR, or numbers that are none, of returns: a spinning LiDAR has 128 rings and fewer.
+bool is_beyond_rings(const std::vector<CloudPoint>& points) {
+  int lowest = most_cloud_rings, highest = 0;
+  for (const CloudPoint& point : points) {
+    if (!point.valid) continue;
+    lowest = std::min(lowest, point.ring);
+    highest = std::max(highest, point.ring);
+  }
+  return lowest < 0 || highest > most_cloud_rings || (highest == most_cloud_rings && lowest == 0);
+}
+
 }  // namespace
 
 CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines) {
-  const bool left_out = lines.named_rings && is_one_ring_of_many(points);
+  const bool left_out = lines.named_rings && (is_one_ring_of_many(points) || is_beyond_rings(points));
   for (CloudPoint& point : points)
     if (left_out) point.ring = -1;
   const bool named = lines.named_rings && !left_out;

@@ -33,14 +33,14 @@ struct CloudLines {
 struct CloudOrder {
   int rings = 1;
   int columns = 0;
-  bool rings_left_out = false;  ///< the points' own, one number for all of them
+  bool rings_left_out = false;  ///< the points' own, one number for all of them or not within 0 to 127
 };
 
 /// Gives width x height points the slots of a scan: rings from the lowest, by name, by the layout of an organised
 /// cloud, by the elevations of a VLP-16 or by cones of equal elevation, else one ring; columns by layout, time or
-/// azimuth, of one ring a column a point. A ring that is the same for returns of many elevations is no name. A point
-/// that has no slot gets ring -1. Throws InputError without a mark where most points are on one ring or a ring is above
-/// 127; who counts from 1 may have 128.
+/// azimuth, of one ring a column a point. Rings that are the same for returns of many elevations, or not within 0 to
+/// 127, are no names; who counts from 1 may have 128. A point that has no slot gets ring -1. Throws InputError without
+/// a mark where most points are on one ring.
 [[nodiscard]] CloudOrder order_points(std::vector<CloudPoint>& points, const CloudLines& lines);
 
 }  // namespace plumbline::slam

@@ -112,28 +112,29 @@ enum class CloudLayout {
 /// A cloud's scan.
 struct CloudScan {
   Scan scan;
-  bool rings_left_out = false;  ///< the cloud's ring numbers, which are one for returns of many elevations
+  bool rings_left_out = false;  ///< the cloud's ring numbers: one for returns of many elevations, or above 127
   bool in_mm = false;           ///< the cloud's coordinates are whole numbers
   bool far = false;             ///< more than half of its points are beyond 500 m
 };
 
 /// The scan of a cloud whose fields are found by name and type, as the drivers of Velodyne, Ouster, Hesai, RoboSense
 /// and Livox write them: x, y, z in m, as whole numbers of 16 or 32 bits in mm; intensity or reflectivity; ring or
-/// channel, unless it is one number for returns of many elevations (else by the layout of an organised cloud, or by
-/// elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or time_stamp: whole numbers in
-/// ns from the stamp, others in s from it, or as times of the day (f64) in the unit that puts them within 1 s of it, or
-/// in a unit by which they are 5 ms to 1 s long; `times` says which, where several may be. Without times all points
-/// have the cloud's stamp: whether they are deskewed is not known, and undoing a motion twice is as bad as not at all.
-/// Columns are the rows or columns of an organised cloud, else found by time or azimuth; of one ring, a column a point.
-/// Points that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp is the time of the last point;
-/// a cloud without points is a scan without columns at the cloud's. Throws InputError without a mark on a cloud without
-/// fields, of wrong size, with rings above 127 or times over more than 1 s.
+/// channel, unless it is one number for returns of many elevations or not within 0 to 127 (else by the layout of an
+/// organised cloud, or by elevation where that is a VLP-16's; else the scan has one ring); t, time, timestamp or
+/// time_stamp: whole numbers in ns from the stamp, others in s from it, or as times of the day (f64) in the unit that
+/// puts them within 1 s of it, or in a unit by which they are 5 ms to 1 s long; `times` says which, where several may
+/// be. Without times all points have the cloud's stamp: whether they are deskewed is not known, and undoing a motion
+/// twice is as bad as not at all. Columns are the rows or columns of an organised cloud, else found by time or azimuth;
+/// of one ring, a column a point. Points that are not finite, at the origin or beyond 1 km are no returns. Scan::stamp
+/// is the time of the last point; a cloud without points is a scan without columns at the cloud's. Throws InputError
+/// without a mark on a cloud without fields, of wrong size or with times over more than 1 s.
 [[nodiscard]] CloudScan read_scan(const PointCloud& cloud, const PointTimes& times = {});
 [[nodiscard]] inline Scan scan_of(const PointCloud& cloud, const PointTimes& times = {}) {
   return read_scan(cloud, times).scan;
 }
 
 /// What to say of scans whose ring numbers are left out.
-inline constexpr std::string_view one_ring_number = "without their ring numbers, which are one for all points";
+inline constexpr std::string_view no_ring_numbers =
+    "without their ring numbers, which are one for all points or not within 0 to 127";
 
 }  // namespace plumbline::slam

@@ -53,6 +53,24 @@ TEST(FrameTree, AFrameMayHaveTwoParents) {
   }
 }
 
+TEST(FrameTree, SaysWhichJointsHaveSeveralValues) {
+  FrameTree frames;
+  const auto joint = [](double x) {
+    return ros::Transform{0, "/base", "lidar", Pose::from_xyz_yaw({x, 0.0, 0.0}, 0.0)};
+  };
+  frames.add(joint(0.2));
+  frames.add(joint(0.2));
+  frames.add({0, "map", "lidar", Pose::from_xyz_yaw({9.0, 0.0, 0.0}, 0.0)});
+  EXPECT_TRUE(frames.left_out("/tf_static").empty());
+  frames.add(joint(0.5));
+  const std::vector<std::string> said = frames.left_out("/tf_static");
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0], "/tf_static: 'lidar' lies in 'base' with several values; the last one is taken");
+  const std::optional<Pose> X = frames.find("lidar", "base");
+  ASSERT_TRUE(X.has_value());
+  EXPECT_EQ(X->t.x(), 0.5);
+}
+
 TEST(FrameTree, TurnsAnImuIntoTheRobot) {
   const std::optional<Imu> imu = in_robot({"/imu", measured}, mast(), "base");
   ASSERT_TRUE(imu.has_value());

@@ -366,10 +366,15 @@ TEST(PointCloud, RefusesWhatDoesNotFit) {
   refuse([](PointCloud& c) { c.fields[0].offset = 19; });
   refuse([](PointCloud& c) { c.fields[0].offset = 0xfffffff0; });
   refuse([](PointCloud& c) { c.fields[0].type = static_cast<PointType>(9); });
-  refuse([](PointCloud& c) {
-    c.fields[4].offset = 12;
-    c.fields[4].type = PointType::u32;
-  });  // rings of 1e9
+}
+
+TEST(PointCloud, ARowsLengthOfZeroIsThatOfItsPoints) {
+  const PointCloud good = cloud_of(some_scan(), CloudLayout::organised);
+  PointCloud unsaid = good;
+  unsaid.row_step = 0;
+  EXPECT_EQ(scan_of(unsaid).point_L, scan_of(good).point_L);
+  unsaid.data.pop_back();
+  EXPECT_THROW(static_cast<void>(scan_of(unsaid)), InputError);
 }
 
 }  // namespace
