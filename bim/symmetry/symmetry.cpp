@@ -28,7 +28,9 @@ bool is_same(const StoreySymmetry& a, const StoreySymmetry& b, const SymmetrySce
 }
 
 /// Storeys that a robot may walk on and see something.
-std::vector<SymmetryScene> scenes_of(const Building& building, const SymmetryConfig& config) {
+/// Adds to `left_out` what is in none of them.
+std::vector<SymmetryScene> scenes_of(const Building& building, const SymmetryConfig& config,
+                                     std::vector<std::string>& left_out) {
   std::vector<SymmetryScene> scenes;
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const int storey = static_cast<int>(i);
@@ -36,6 +38,7 @@ std::vector<SymmetryScene> scenes_of(const Building& building, const SymmetryCon
                                    [&](const Room& room) { return room.storey == storey; });
     if (building.storeys[i].kind != StoreyKind::habitable || (!building.rooms.empty() && !rooms)) continue;
     SymmetryScene scene(building, storey, config);
+    left_out.insert(left_out.end(), scene.left_out().begin(), scene.left_out().end());
     if (scene.volume_m3() > 0.0) scenes.push_back(std::move(scene));
   }
   return scenes;
@@ -135,7 +138,7 @@ std::vector<BuildingSymmetry> find_common(const std::vector<SymmetryScene>& scen
 
 SymmetryReport analyse_symmetry(const Building& as_planned, const SymmetryConfig& config) {
   SymmetryReport report;
-  const std::vector<SymmetryScene> scenes = scenes_of(as_planned, config);
+  const std::vector<SymmetryScene> scenes = scenes_of(as_planned, config, report.left_out);
   if (scenes.empty()) return report;
   for (const SymmetryScene& scene : scenes) append(found_between(scene, scene, false, config), report.storeys);
   for (const SymmetryScene& scene : scenes) append(found_between(scene, scene, true, config), report.reflections);

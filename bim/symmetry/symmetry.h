@@ -81,6 +81,7 @@ struct SymmetryReport {
   std::vector<StoreySymmetry> reflections;  ///< mirror images, from == to
   std::vector<BuildingSymmetry> building;   ///< proper, without the identity
   std::vector<RoomClass> rooms;             ///< exact ones by their first room, then near ones
+  std::vector<std::string> left_out;        ///< ids: bodies around most of a storey, of whose inside nothing is known
 };
 
 /// Symmetries of what stands in a building as planned: walls with their openings, columns, stairs, obstacles, edges of

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "bim/config/tree.h"
 #include "bim/mesh/solid.h"
@@ -106,6 +107,7 @@ class Collector {
       const bool hidden = !obstacle.planned || is_loose(obstacle) || is_see_through(building_, obstacle.material);
       if (!hidden) add_solid(obstacle.body);
     }
+    leave_out_what_is_around();
     return std::move(bodies_);
   }
 
@@ -234,13 +236,31 @@ class Collector {
     }
     Polygon2 points;
     for (const Eigen::Vector3d& p : solid.vertices) points.emplace_back(p.head<2>());
-    add(hull(points), bottom, top);
+    const Polygon2 outline = hull(std::move(points));
+    const double inside = is_closed(solid) ? volume(solid) : 0.0;
+    if (inside < config_.hollow * signed_area(outline) * (top - bottom)) hollow_.insert(bodies_.elements.size() - 1);
+    add(outline, bottom, top);
+  }
+
+  /// A hollow body around most of its storey.
+  void leave_out_what_is_around() {
+    Polygon2 points;
+    for (const BodyPrism& prism : bodies_.prisms)
+      points.insert(points.end(), prism.outline.begin(), prism.outline.end());
+    const double most_m2 = config_.around * std::abs(signed_area(hull(std::move(points))));
+    std::erase_if(bodies_.prisms, [&](const BodyPrism& prism) {
+      const auto element = static_cast<std::size_t>(prism.element);
+      if (!hollow_.contains(element) || signed_area(prism.outline) < most_m2) return false;
+      bodies_.left_out.push_back(bodies_.elements[element]);
+      return true;
+    });
   }
 
   const Building& building_;
   const SymmetryBodiesConfig& config_;
   double floor_z_ = 0.0, height_m_ = 0.0;
   SymmetryBodies bodies_;
+  std::set<std::size_t> hollow_;  ///< into its elements
 };
 
 }  // namespace

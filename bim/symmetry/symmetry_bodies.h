@@ -21,6 +21,7 @@ struct SymmetryBodies {
   int storey = -1;
   std::vector<std::string> elements;  ///< ids: walls, columns, stairs, obstacles in the order of the building
   std::vector<BodyPrism> prisms;
+  std::vector<std::string> left_out;  ///< ids of bodies around so much that nothing is known of what is in them
 };
 
 struct SymmetryBodiesConfig {
@@ -29,6 +30,8 @@ struct SymmetryBodiesConfig {
   double filled = 1.1;         ///< a body that fills less of the room under its tops is taken as its convex outline
   int triangles_max = 200;     ///< a body with more tops is taken as its convex outline
   double area_min_m2 = 1e-9;   ///< smaller pieces are rounding
+  double hollow = 0.25;        ///< a body that fills less of its convex outline,
+  double around = 0.5;         ///< which covers this share of its storey, is left out: a whole building in one piece
 };
 
 /// Walls with their openings cut out over their heights, columns, stairs and planned obstacles that reach into the

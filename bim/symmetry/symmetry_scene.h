@@ -16,6 +16,7 @@ class SymmetryScene {
   SymmetryScene(const Building& building, int storey, const SymmetryConfig& config);
 
   [[nodiscard]] int storey() const { return bodies_.storey; }
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return bodies_.left_out; }
   [[nodiscard]] const std::string& element_id(int element) const {
     return bodies_.elements[static_cast<std::size_t>(element)];
   }

@@ -202,6 +202,11 @@ Tree symmetry_json(const bim::Building& building, const bim::SymmetryReport& rep
   tree.set("building", std::move(whole)).set("storeys", storeys_json(building, report.storeys));
   tree.set("copies", storeys_json(building, report.copies));
   tree.set("reflections", storeys_json(building, report.reflections));
+  if (!report.left_out.empty()) {
+    Tree left_out = Tree::list();
+    for (const std::string& id : report.left_out) left_out.push(id);
+    tree.set("left_out", std::move(left_out));
+  }
   return tree.set("rooms", rooms_json(building, report.rooms));
 }
 
@@ -218,9 +223,13 @@ std::string symmetry_text(const bim::Building& building, const bim::SymmetryRepo
             rooms_text(building, like) + "\n";
   for (const auto& part : by_storeys(report.reflections))
     text += motions_text("no confusion for a robot: " + storey(part.front().from), part);
-  return "symmetry\n" + (text.empty()
-                             ? "  none: no rotation or translation maps the building, a storey or a room onto another\n"
-                             : text);
+  std::string unknown;
+  for (const std::string& id : report.left_out)
+    unknown += "  not compared: " + printable(id) +
+               ", one body around most of its storey; walls that are bodies of their own are\n";
+  if (text.empty() && unknown.empty())
+    text = "  none: no rotation or translation maps the building, a storey or a room onto another\n";
+  return "symmetry\n" + text + unknown;
 }
 
 }  // namespace plumbline::scenarios

@@ -36,7 +36,7 @@ std::optional<int> body_rank(const IfcRepresentation& representation, StepClass 
 }
 
 /// Representations that may serve as a body, the best first.
-Representations symmetry_bodies(const IfcProduct& source, StepClass kind) {
+Representations bodies_of(const IfcProduct& source, StepClass kind) {
   std::vector<std::pair<int, std::shared_ptr<IfcRepresentation>>> ranked;
   for (const auto& representation : source.m_Representation->m_Representations) {
     const std::optional<int> rank = representation ? body_rank(*representation, kind) : std::nullopt;
@@ -51,7 +51,7 @@ Representations symmetry_bodies(const IfcProduct& source, StepClass kind) {
 }  // namespace
 
 bool has_body(const IfcProduct& source, StepClass kind) {
-  return source.m_Representation && !symmetry_bodies(source, kind).empty();
+  return source.m_Representation && !bodies_of(source, kind).empty();
 }
 
 void read_axis(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product) {
@@ -67,7 +67,7 @@ void read_axis(const IfcProduct& source, StepValidator& validator, StepGeometry&
 
 void read_body(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product) {
   if (!source.m_Representation) return;
-  for (const auto& representation : symmetry_bodies(source, product.kind)) {
+  for (const auto& representation : bodies_of(source, product.kind)) {
     validator.check(*representation);
     product.body = geometry.shapes(representation, product.diagnostics);
     if (!product.body.empty()) return;
