@@ -62,7 +62,8 @@ class CellGrid {
     }
   }
 
-  /// Runs of occupied cells along x; a run that repeats in the next row joins it.
+  /// Runs of occupied cells along x that begin at about one height, unlike the legs of a table and its top; a run that
+  /// repeats in the next row joins it.
   [[nodiscard]] std::vector<CellBlock> blocks() const {
     std::vector<CellBlock> blocks;
     std::vector<std::size_t> before;  // blocks that reach into the row before
@@ -70,10 +71,11 @@ class CellGrid {
       std::vector<std::size_t> now;
       for (int x = 0; x < nx_; ++x) {
         if (!occupied(x, y)) continue;
-        CellBlock run{x, x, y, y + 1, at(x, y)};
-        for (; run.x1 < nx_ && occupied(run.x1, y); ++run.x1) widen(at(run.x1, y), run.z);
+        CellBlock run{x, x + 1, y, y + 1, at(x, y)};
+        for (; run.x1 < nx_ && occupied(run.x1, y) && begin_alike(at(run.x1 - 1, y), at(run.x1, y)); ++run.x1)
+          widen(at(run.x1, y), run.z);
         now.push_back(join(run, before, blocks));
-        x = run.x1;
+        x = run.x1 - 1;
       }
       before = std::move(now);
     }
@@ -108,6 +110,11 @@ class CellGrid {
       cell = {z, z};
   }
 
+  static bool begin_alike(const HeightRange& a, const HeightRange& b) {
+    constexpr double step_m = 0.3;  // less than between the floor and what is walked under
+    return std::abs(a.from - b.from) <= step_m;
+  }
+
   static void widen(const HeightRange& by, HeightRange& z) { z = {std::min(z.from, by.from), std::max(z.to, by.to)}; }
 
   /// Index of the block that the run has become part of.
@@ -115,7 +122,7 @@ class CellGrid {
                           std::vector<CellBlock>& blocks) {
     for (const std::size_t i : before) {
       CellBlock& b = blocks[i];
-      if (b.x0 != run.x0 || b.x1 != run.x1) continue;
+      if (b.x0 != run.x0 || b.x1 != run.x1 || !begin_alike(b.z, run.z)) continue;
       b.y1 = run.y1;
       widen(run.z, b.z);
       return i;

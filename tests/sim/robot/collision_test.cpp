@@ -213,6 +213,18 @@ TEST(Collision, OnlyThePartInReachOfAnObstacleBlocks) {
   for (const CollisionBox& box : boxes) EXPECT_LT(box.X_WB.t.x() + box.half.x(), 1.2 + 0.11);
 }
 
+TEST(Collision, UnderACounterOnLegsItIsFree) {
+  bim::Solid counter = box_solid({0.0, 0.0, 1.07}, {2.4, 0.8, 1.1});
+  for (const double x : {0.0, 2.35})
+    for (const double y : {0.0, 0.75}) counter = joined(counter, box_solid({x, y, 0.0}, {x + 0.05, y + 0.05, 1.07}));
+  const std::vector<CollisionBox> boxes = collision_boxes(only(counter), {0});
+  EXPECT_FALSE(inside_any(boxes, {1.2, 0.4, 0.5}));
+  EXPECT_FALSE(inside_any(boxes, {1.2, 0.02, 0.5})) << "between two legs";
+  EXPECT_FALSE(inside_any(boxes, {0.02, 0.4, 0.5})) << "between two legs";
+  EXPECT_TRUE(inside_any(boxes, {0.02, 0.02, 0.5})) << "a leg";
+  EXPECT_TRUE(inside_any(boxes, {1.2, 0.4, 1.08})) << "the top";
+}
+
 TEST(Collision, OfAThingTooLargeForCellsOnlyWhatIsNearTheRoomsIsKept) {
   const bim::Solid fence =
       joined(box_solid({-600.0, 1.0, 0.0}, {600.0, 1.05, 1.0}), box_solid({-600.0, 1.05, 0.0}, {-599.95, 600.0, 1.0}));
