@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bim/config/tree.h"
+#include "bim/geometry/symmetric.h"
 #include "slam/io/pose_check.h"
 #include "slam/process/child.h"
 #include "slam/process/client/plumbline_messages.h"
@@ -66,6 +67,9 @@ Hypothesis hypothesis_of(const wire::Hypothesis& wire) {
   hypothesis.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
   if (!(wire.mass >= 0.0 && wire.mass <= 1.0)) throw ProcessFailure("has a mass that is no share");
   if (!hypothesis.covariance.allFinite()) throw ProcessFailure("has a covariance that is not finite");
+  constexpr double rounding = 1e-9;  // of its largest entry
+  if (symmetric_eigen(hypothesis.covariance).values[0] < -rounding * hypothesis.covariance.cwiseAbs().maxCoeff())
+    throw ProcessFailure("has a covariance with a negative eigenvalue");
   return hypothesis;
 }
 

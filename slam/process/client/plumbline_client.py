@@ -136,15 +136,21 @@ class Answer:
         if self.state not in range(4):
             raise ValueError(f"a state must be SEARCHING, AMBIGUOUS, CONVERGED or LOST, not {self.state!r}")
         numbers = [0.0] * 6 + [1.0] if self.pose is None else _numbers(self.pose)
+        particles = np.asarray(self.particles, "<f4")
+        if particles.size and (particles.ndim != 2 or particles.shape[1] != 4 or len(particles) > 500):
+            raise ValueError("particles must be N x 4: x, y, yaw and weight, at most 500; not of shape "
+                             f"{particles.shape}")
         out = struct.pack("<qBBHI7d", stamp_ns, self.pose is not None, self.state, len(self.hypotheses),
-                          len(self.particles), *numbers)
+                          len(particles), *numbers)
         for hypothesis in self.hypotheses:
             mass, pose, covariance = _parts(hypothesis, "a hypothesis", "mass", "4x4", "3x3 covariance of x, y, yaw")
             c = np.asarray(covariance, dtype=float)
             if c.shape != (3, 3):
                 raise ValueError(f"the covariance of a hypothesis must be 3x3, of x, y and yaw, not of shape {c.shape}")
+            if not np.allclose(c, c.T):
+                raise ValueError("the covariance of a hypothesis must be symmetric")
             out += _HYPOTHESIS.pack(mass, *_numbers(pose), c[0, 0], c[0, 1], c[0, 2], c[1, 1], c[1, 2], c[2, 2])
-        return out + np.asarray(self.particles, "<f4").tobytes()
+        return out + particles.tobytes()
 
 
 def _parts(given, what, *names):

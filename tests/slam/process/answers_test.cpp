@@ -47,7 +47,7 @@ Answer good() {
   answer.head.has_pose = 1;
   answer.head.state = 1;
   answer.head.X_FR = pose_at(1.25, 0.3);
-  for (int i = 0; i < 3; ++i) answer.hypotheses.push_back({0.25, pose_at(i, 0.1 * i), {1, 2, 3, 4, 5, 6}});
+  for (int i = 0; i < 3; ++i) answer.hypotheses.push_back({0.25, pose_at(i, 0.1 * i), {4, 1, 2, 5, 3, 6}});
   for (int i = 0; i < 5; ++i) answer.particles.push_back({1.0F, 2.0F, 0.5F, 0.2F});
   answer.head.hypotheses = 3;
   answer.head.particles = 5;
@@ -64,7 +64,7 @@ TEST(ProcessAnswers, AreReadAsTheyWereWritten) {
   ASSERT_EQ(output.hypotheses.size(), 3U);
   EXPECT_EQ(output.hypotheses[2].X_WR.t.x(), 2.0);
   EXPECT_EQ(output.hypotheses[0].covariance, output.hypotheses[0].covariance.transpose());
-  EXPECT_EQ(output.hypotheses[0].covariance(1, 2), 5.0);
+  EXPECT_EQ(output.hypotheses[0].covariance(1, 2), 3.0);
   EXPECT_EQ(output.particles.size(), 5U);
 }
 
@@ -75,6 +75,12 @@ TEST(ProcessAnswers, WhatIsNoneIsRefused) {
   };
   refused(good(), false);
   Answer answer = good();
+  answer.hypotheses[1].covariance[0] = -0.01;
+  refused(answer);
+  answer = good();
+  answer.hypotheses[1].covariance[1] = 5.0;  // more than the two variances allow
+  refused(answer);
+  answer = good();
   answer.head.stamp_ns = 99;
   refused(answer);
   answer = good();
