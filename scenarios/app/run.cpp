@@ -52,10 +52,25 @@ std::string default_out(const Scenario& scenario) {
   return "runs/" + name + "-" + std::to_string(scenario.seed);
 }
 
+/// The commas between quotes of a command separate no methods.
+std::vector<std::string> with_quotes_whole(const std::vector<std::string>& parts) {
+  std::vector<std::string> methods;
+  char quote = 0;
+  for (const std::string& part : parts) {
+    if (quote != 0)
+      methods.back() += "," + part;
+    else
+      methods.push_back(part);
+    for (const char c : part)
+      if (quote == 0 ? c == '\'' || c == '"' : c == quote) quote = quote == 0 ? c : '\0';
+  }
+  return methods;
+}
+
 Overrides overrides_of(const RunArguments& options) {
   Overrides overrides;
   if (options.seed_option->given()) overrides.seed = options.seed;
-  if (options.methods_option->given()) overrides.methods = options.methods;
+  if (options.methods_option->given()) overrides.methods = with_quotes_whole(options.methods);
   if (!overrides.methods) return overrides;
   for (std::string& method : *overrides.methods)
     if (std::optional<ProcessSpec> process = process_of(method, std::filesystem::current_path().string())) {

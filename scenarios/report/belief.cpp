@@ -179,9 +179,8 @@ std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
       curve.name = "other";
       if (!history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
     }
-    const double apart = history.hypothesis;  // % each, or equal shares would hide each other
-    for (const Eigen::Vector2d& p : history.points)
-      curve.points.emplace_back(p.x(), std::max(0.0, 100.0 * p.y() - apart));
+    curve.lowered = history.hypothesis;  // % each
+    for (const Eigen::Vector2d& p : history.points) curve.points.emplace_back(p.x(), 100.0 * p.y());
     curves.push_back(std::move(curve));
   }
   if (method.other_hypotheses.empty()) return curves;

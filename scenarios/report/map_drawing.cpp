@@ -168,22 +168,65 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
   return out + "</svg>";
 }
 
+/// From where to where on x.
+struct Span {
+  double from = 0.0, to = 0.0;
+  [[nodiscard]] double length() const { return to - from; }
+};
+
+/// What a level line has of a polygon, from left to right.
+std::vector<Span> spans_at(const Polygon2& polygon, double y) {
+  std::vector<double> crossings;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > y) != (b.y() > y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+  }
+  std::sort(crossings.begin(), crossings.end());
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) spans.push_back({crossings[i], crossings[i + 1]});
+  return spans;
+}
+
+/// The widest place for a line of text over y.
+Span widest_row(const Polygon2& polygon, double y) {
+  constexpr double height_m = 0.4;
+  Span widest;
+  for (const Span& low : spans_at(polygon, y))
+    for (const Span& high : spans_at(polygon, y + height_m))
+      if (const Span both{std::max(low.from, high.from), std::min(low.to, high.to)}; both.length() > widest.length())
+        widest = both;
+  return widest;
+}
+
 }  // namespace
 
-/// Names stand in the upper left corner of their rooms, away from most paths.
+RoomNamePlace room_name_place(const Polygon2& polygon) {
+  constexpr double below_m = 0.45, step_m = 0.25, wide_enough = 0.8, margin_m = 0.2;
+  constexpr int most_rows = 200;
+  double low = 1e9, high = -1e9;
+  for (const Eigen::Vector2d& p : polygon) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  const double step = std::max(step_m, (high - low) / most_rows);
+  std::vector<std::pair<double, Span>> rows;
+  double widest = 0.0;
+  for (double y = high - below_m; y > low || rows.empty(); y -= step) {
+    rows.emplace_back(y, widest_row(polygon, y));
+    widest = std::max(widest, rows.back().second.length());
+  }
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.second.length() >= wide_enough * widest; });
+  return {{row->second.from + margin_m, row->first}, row->second.length() - 1.5 * margin_m};
+}
+
 std::string room_names(const ReportInput& input, int storey) {
   std::string out;
   for (const auto& room : input.plan.rooms) {
     if (room.storey != storey || room.polygon.empty()) continue;
-    Eigen::Vector2d corner(1e9, -1e9);
-    double right = -1e9;
-    for (const auto& p : room.polygon) {
-      corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
-      right = std::max(right, p.x());
-    }
     // The script leaves out what does not fit into its room, or lies over another name.
-    out += svg::text(corner + Eigen::Vector2d(0.2, -0.45), room.name,
-                     "class=\"name\" data-room=\"" + svg::number(right - corner.x() - 0.3) + "\"");
+    const RoomNamePlace place = room_name_place(room.polygon);
+    out += svg::text(place.from, room.name, "class=\"name\" data-room=\"" + svg::number(place.width_m) + "\"");
   }
   return out;
 }

@@ -22,6 +22,13 @@ struct MapBox {
 [[nodiscard]] MapBox bounds(const ReportInput& input);
 /// Start tag of a map.
 [[nodiscard]] std::string open_map(const MapBox& box, const std::string& label);
+/// Where the name of a room stands: the highest line in it that is nearly as wide as any, in the upper left corner of a
+/// rectangle, away from most paths.
+struct RoomNamePlace {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  double width_m = 0.0;  ///< free from there
+};
+[[nodiscard]] RoomNamePlace room_name_place(const Polygon2& polygon);
 /// Names of the storey's rooms; the script of the page leaves out those without space.
 [[nodiscard]] std::string room_names(const ReportInput& input, int storey);
 /// A stretch of whole metres with its length, in the lower left corner.

@@ -96,7 +96,8 @@ std::string path(const PlotCurve& curve, const Scale& scale) {
   for (const auto& p : curve.points) {
     const bool jumps = curve.jump > 0.0 && std::abs(p.y() - last.y()) > curve.jump;
     d += jumps || p.x() - last.x() > path_gap_s ? "M" : "L";
-    d += svg::number(scale.x(p.x()), 1) + " " + svg::number(scale.y(p.y()), 1);
+    const double y = curve.lowered > 0.0 ? std::max(scale.min, p.y() - curve.lowered) : p.y();
+    d += svg::number(scale.x(p.x()), 1) + " " + svg::number(scale.y(y), 1);
     last = p;
   }
   return "<path class=\"curve " + std::string(curve.disclaimed ? "disclaimed " : "") + layer_of(curve) +

@@ -12,6 +12,7 @@ struct PlotCurve {
   std::string colour;                   ///< as CSS has it
   std::vector<Eigen::Vector2d> points;  ///< (time in s, value)
   std::string layer = {};               ///< method with which it is shown and hidden; its name where empty
+  double lowered = 0.0;                 ///< drawn so far below its values: equal curves would hide each other
   double jump = 0.0;                    ///< values further apart than this are not joined; 0: all are
   bool disclaimed = false;              ///< the method said that it is lost: dotted, and the scale does not heed it
 };

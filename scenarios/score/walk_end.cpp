@@ -9,6 +9,7 @@ namespace plumbline::scenarios::score {
 namespace {
 
 constexpr double at_the_end_m = 1.0;   ///< the robot stops this near to the end of its route
+constexpr double most_of_it = 0.5;     ///< of a route whose end is near its start, it has then walked at least this
 constexpr double on_storey_m = 1.5;    ///< of a base over its storey's floor, at most
 constexpr std::size_t most_named = 5;  ///< rooms
 
@@ -35,6 +36,12 @@ std::vector<std::string> rooms_not_entered(const FinishedRun& run) {
   return names;
 }
 
+double walked_m(const std::vector<slam::StampedPose>& truth_W) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < truth_W.size(); ++i) sum += (truth_W[i].X_FR.t - truth_W[i - 1].X_FR.t).head<2>().norm();
+  return sum;
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
@@ -46,7 +53,8 @@ std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
   if (slam::seconds(run.record.truth_W.back().stamp) < run.scenario.duration_s - before_s) return warnings;
   const double left_m = (run.record.truth_W.back().X_FR.t.head<2>() - run.walk.end_W).norm();
   const std::vector<std::string> names = rooms_not_entered(run);
-  if (left_m < at_the_end_m) return warnings;
+  const bool is_done = names.empty() && walked_m(run.record.truth_W) >= most_of_it * run.walk.planned_m;
+  if (left_m < at_the_end_m && is_done) return warnings;
   std::string text = "the walk ended when its time was up (" + format_number(run.scenario.duration_s) + " s)";
   for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
     text += (i == 0 ? ", before it came to " : ", ") + names[i];

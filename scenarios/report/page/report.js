@@ -27,6 +27,7 @@
     var p = at(data.tracks[name], t), state = stateAt(name, t);
     if (!p) return "no single answer yet" + (state ? ", " + state : "");
     if (p.lost) return "says that it is LOST";
+    if (t - data.tracks[name].t[p.k] >= 1) return "no pose since " + data.tracks[name].t[p.k].toFixed(1) + " s" + (state ? ", " + state : "");
     return (p.e < 1 ? (p.e * 100).toFixed(1) + " cm" : p.e.toFixed(2) + " m") + " off" + (state ? ", " + state : "");
   }
   // What a curve of a plot is at t, as text; "" where it is nothing.

@@ -60,6 +60,20 @@ TEST(Plot, StepsAreRound) {
   EXPECT_DOUBLE_EQ(round_step(120.0, 10), 20.0);
 }
 
+// Curves of equal shares are drawn beside each other; the script's legend has the values.
+TEST(Plot, ALoweredCurveKeepsItsValues) {
+  PlotCurve curve{"m", "red", {{0.0, 40.0}, {0.1, 0.5}}};
+  const std::string plain = draw_plot("p", {curve}, 1.0, {.max = 100.0});
+  curve.lowered = 2.0;
+  EXPECT_NE(draw_plot("p", {curve}, 1.0, {.max = 100.0}), plain);
+  curve.points = {{0.0, 38.0}, {0.1, 0.0}};
+  curve.lowered = 0.0;
+  const std::string below = draw_plot("p", {curve}, 1.0, {.max = 100.0});
+  curve.points = {{0.0, 40.0}, {0.1, 0.5}};
+  curve.lowered = 2.0;
+  EXPECT_EQ(draw_plot("p", {curve}, 1.0, {.max = 100.0}), below);
+}
+
 TEST(Plot, BreaksTheHeadingWhereItTurnsOver) {
   PlotCurve curve{"m", "red", {{0.0, 179.0}, {0.1, 179.5}, {0.2, -179.5}, {0.3, -179.0}}};
   EXPECT_EQ(occurrences(draw_plot("p", {curve}, 1.0), "M"), 1U);

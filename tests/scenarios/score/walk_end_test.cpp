@@ -8,8 +8,8 @@
 namespace plumbline::scenarios::score {
 namespace {
 
-/// A walk from west to east that ended at `end`, at a time of 30 s at most.
-FinishedRun walk_that_ended(const Eigen::Vector2d& end, double at_s) {
+/// A walk from west to east that ended at `end`, at a time of 30 s at most, `walked_m` after its begin.
+FinishedRun walk_that_ended(const Eigen::Vector2d& end, double at_s, double walked_m = 20.0) {
   bim::Building building = sim::two_rooms();
   sim::add_door(building, 0, 2.5, 0.9);
   FinishedRun run;
@@ -19,7 +19,8 @@ FinishedRun walk_that_ended(const Eigen::Vector2d& end, double at_s) {
   run.walk.planned_m = 20.0;
   run.walk.route_rooms = {"east"};
   run.walk.end_W = {6.0, 2.5};
-  run.record.truth_W = {{static_cast<slam::Nanoseconds>(at_s * 1e9), Pose::from_xyz_yaw({end.x(), end.y(), 0.5}, 0.0)}};
+  run.record.truth_W = {{0, Pose::from_xyz_yaw({end.x() - walked_m, end.y(), 0.5}, 0.0)},
+                        {static_cast<slam::Nanoseconds>(at_s * 1e9), Pose::from_xyz_yaw({end.x(), end.y(), 0.5}, 0.0)}};
   return run;
 }
 
@@ -34,6 +35,14 @@ TEST(WalkEnd, ATimeThatWasUpSaysWhatWasLeftAndWhatWouldDo) {
 TEST(WalkEnd, AWalkThatIsDoneHasNothingToSay) {
   EXPECT_TRUE(warnings_of_walk(walk_that_ended({6.2, 2.5}, 29.9)).empty());
   EXPECT_TRUE(warnings_of_walk(walk_that_ended({3.8, 2.5}, 20.0)).empty()) << "the time was not up";
+}
+
+// The robot stands near the end of a round trip when it sets out.
+TEST(WalkEnd, ARoundTripThatWasHardlyBegunIsNotDone) {
+  const std::vector<std::string> warnings = warnings_of_walk(walk_that_ended({6.2, 2.5}, 29.9, 0.3));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings.front(),
+            "the walk ended when its time was up (30 s); `duration_s: 80` would do for all of its route");
 }
 
 TEST(WalkEnd, WithoutWallsItIsSaidThatTheyAreNotScored) {
