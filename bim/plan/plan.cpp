@@ -146,36 +146,37 @@ std::vector<PlanSolid> solids_of(const Building& building) {
   return solids;
 }
 
-/// Triangles of what was built to stay, with the vertices they need.
-BuildingMesh structure_of(const Building& building, const BuildingMesh& mesh) {
-  BuildingMesh visible = visible_mesh(building, mesh);
-  BuildingMesh structure;
-  structure.elements = visible.elements;
+/// Triangles of what was built to stay, and of nothing that may have moved, or the other way round, with the vertices
+/// they need.
+BuildingMesh part_of(const Building& building, const BuildingMesh& visible, bool movable) {
+  BuildingMesh part;
+  part.elements = visible.elements;
   std::vector<int> vertex_of(visible.vertices.size(), -1);
-  for (MeshElement& element : structure.elements) {
+  for (MeshElement& element : part.elements) {
     const int first = element.first_triangle, count = element.triangle_count;
-    element.first_triangle = static_cast<int>(structure.triangles.size());
+    element.first_triangle = static_cast<int>(part.triangles.size());
     element.triangle_count = 0;
-    if (element.kind == ElementKind::obstacle) {
-      const Obstacle& obstacle = building.obstacles[static_cast<std::size_t>(element.index)];
-      if (is_filling(obstacle) || may_have_moved(obstacle)) continue;
-    }
+    const Obstacle* obstacle =
+        element.kind == ElementKind::obstacle ? &building.obstacles[static_cast<std::size_t>(element.index)] : nullptr;
+    if (obstacle != nullptr && is_filling(*obstacle)) continue;
+    if (movable != (obstacle != nullptr && may_have_moved(*obstacle))) continue;
+    if (movable && !obstacle->planned) continue;
     element.triangle_count = count;
     for (int i = first; i < first + count; ++i) {
       Eigen::Vector3i triangle = visible.triangles[static_cast<std::size_t>(i)];
       for (int& vertex : triangle.reshaped()) {
         int& kept_as = vertex_of[static_cast<std::size_t>(vertex)];
         if (kept_as < 0) {
-          kept_as = static_cast<int>(structure.vertices.size());
-          structure.vertices.push_back(visible.vertices[static_cast<std::size_t>(vertex)]);
+          kept_as = static_cast<int>(part.vertices.size());
+          part.vertices.push_back(visible.vertices[static_cast<std::size_t>(vertex)]);
         }
         vertex = kept_as;
       }
-      structure.triangles.push_back(triangle);
-      structure.element.push_back(static_cast<int>(&element - structure.elements.data()));
+      part.triangles.push_back(triangle);
+      part.element.push_back(static_cast<int>(&element - part.elements.data()));
     }
   }
-  return structure;
+  return part;
 }
 
 std::optional<WalkedFloors> floors_of(const Building& building, int storey) {
@@ -207,7 +208,9 @@ Plan make_plan(const Building& as_planned, const BuildingMesh& mesh) {
   link_faces(as_planned, plan);
   link_rooms(as_planned, plan);
   plan.solids = solids_of(as_planned);
-  plan.structure = structure_of(as_planned, mesh);
+  const BuildingMesh visible = visible_mesh(as_planned, mesh);
+  plan.structure = part_of(as_planned, visible, false);
+  plan.furniture = part_of(as_planned, visible, true);
   return plan;
 }
 
@@ -244,7 +247,8 @@ Plan transformed(const Plan& plan_W, const Pose& X_VW) {
     solid.z0 += rise;
     solid.z1 += rise;
   }
-  for (Eigen::Vector3d& p : plan_V.structure.vertices) p = X_VW * p;
+  for (BuildingMesh* mesh : {&plan_V.structure, &plan_V.furniture})
+    for (Eigen::Vector3d& p : mesh->vertices) p = X_VW * p;
   return plan_V;
 }
 

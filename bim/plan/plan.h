@@ -72,6 +72,8 @@ struct Plan {
   /// What was built to stay, as a LiDAR sees it: no furniture, no panes, doors open. Empty in a plan that was not made
   /// from a building; faces and solids stand for it there.
   BuildingMesh structure;
+  /// Furniture where it was planned, as a LiDAR sees it: empty where none was, or where an estimator is told of none.
+  BuildingMesh furniture;
 };
 
 /// Plan of an as-planned building. mesh: as build_mesh gives it for the same building.

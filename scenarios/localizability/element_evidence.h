@@ -33,9 +33,11 @@ struct SeenPlace {
 /// Log-likelihood ratio of a pose over another one, by what its scans meet.
 struct ElementEvidence {
   double llr = 0.0;
+  double by_furniture = 0.0;  ///< what furniture where the other pose has a wall says for that one, not capped
   std::map<std::pair<bool, int>, double> by_element;  ///< keys as DecidingFeature has them
 
-  /// Adds one scan.
+  /// Adds one scan. Furniture that stands where the other pose has a wall is one coincidence, however often it is seen:
+  /// by it alone llr falls to -marginal_llr and no further.
   void add(const RangeImager& imager, const ComparedScenes& scenes, const SeenPlace& place, const SensorPose& other);
   /// Absent where nothing speaks for the pose.
   [[nodiscard]] std::optional<DecidingFeature> deciding() const;

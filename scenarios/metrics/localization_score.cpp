@@ -72,16 +72,19 @@ double walked_at(const Truth& truth, slam::Nanoseconds t) {
 /// and the true one keeps its share.
 bool is_honest(const Belief& last, const Pose& X_WR_true, const std::vector<Pose>& others_W,
                const LocalizationRules& rules) {
-  if (last.hypotheses.empty() || last.hypotheses.size() > 2 * others_W.size() + 1) return false;
+  std::size_t claimed = 0;
   double true_mass = 0.0;
   for (const slam::Hypothesis& hypothesis : last.hypotheses) {
+    if (hypothesis.mass < rules.claimed_mass) continue;
+    ++claimed;
     const bool is_true = right(hypothesis.X_WR, X_WR_true, rules);
     const bool is_alias = std::any_of(others_W.begin(), others_W.end(),
                                       [&](const Pose& X_WA) { return right(hypothesis.X_WR, X_WA, rules); });
     if (!is_true && !is_alias) return false;
     if (is_true) true_mass += hypothesis.mass;
   }
-  return true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
+  return claimed > 0 && claimed <= 2 * others_W.size() + 1 &&
+         true_mass >= 0.5 / (static_cast<double>(others_W.size()) + 1.0);
 }
 
 struct Nees {

@@ -12,10 +12,11 @@ namespace plumbline::scenarios::score {
 
 /// Rules of plan localization, docs/reference/metrics.md.
 struct LocalizationRules {
-  double position_m = 0.5;  ///< a pose is right within this
-  double yaw_deg = 10.0;    ///< and this
-  double hold_s = 5.0;      ///< how long it must stay right, to the end
-  double hold_m = 1.0;      ///< and over how much walking
+  double position_m = 0.5;     ///< a pose is right within this
+  double yaw_deg = 10.0;       ///< and this
+  double hold_s = 5.0;         ///< how long it must stay right, to the end
+  double hold_m = 1.0;         ///< and over how much walking
+  double claimed_mass = 0.02;  ///< a hypothesis with less is listed, not claimed
 };
 
 /// What a plan localization reported after one scan.

@@ -13,8 +13,10 @@ namespace {
 std::shared_ptr<const bim::Plan> told_plan(const bim::Building& as_planned, const bim::BuildingMesh& mesh,
                                            ToldFurniture told) {
   bim::Plan plan = bim::make_plan(as_planned, mesh);
-  if (told == ToldFurniture::none)
+  if (told == ToldFurniture::none) {
     std::erase_if(plan.solids, [](const bim::PlanSolid& solid) { return solid.may_have_moved; });
+    plan.furniture = {};
+  }
   return std::make_shared<const bim::Plan>(std::move(plan));
 }
 

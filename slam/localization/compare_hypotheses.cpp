@@ -209,6 +209,32 @@ bool ends_in_opening(const PredictedScan& predicted, const PlanRay& ray, double 
                                                 range + config.sigma_m, predicted.cell);
 }
 
+/// The beam ends where the plan has furniture. It may stand there still, so that this is no evidence against the pose;
+/// as it may have moved, it is none for it either.
+bool ends_at_planned_furniture(const PredictedScan& predicted, const PlanRay& ray, double range,
+                               const HypothesisComparisonConfig& config) {
+  const Structure* furniture = predicted.storey->furniture.get();
+  if (furniture == nullptr) return false;
+  // Beside, above and below it, too: a pose that is a little off sees its edges elsewhere.
+  const double off = config.planned_furniture_m / range;
+  const Eigen::Vector2d left = Eigen::Rotation2Dd(off) * ray.direction,
+                        right = Eigen::Rotation2Dd(-off) * ray.direction;
+  const std::array<SensorRay, 5> rays = {{{ray.direction, ray.slope},
+                                          {left, ray.slope},
+                                          {right, ray.slope},
+                                          {ray.direction, ray.slope + off},
+                                          {ray.direction, ray.slope - off}}};
+  std::array<StructureHit, 5> hits;
+  const double longest =
+      (range + cast_beyond_m) * std::sqrt(1.0 + (std::abs(ray.slope) + off) * (std::abs(ray.slope) + off));
+  furniture->cast({ray.origin.x(), ray.origin.y(), ray.z}, rays, longest, hits);
+  return std::any_of(hits.begin(), hits.end(), [&](const StructureHit& hit) {
+    if (hit.element < 0) return false;
+    const double incidence = hit.upright ? std::max(std::abs(hit.n.dot(ray.direction)), config.min_incidence) : 1.0;
+    return std::abs(range - hit.distance) * incidence <= config.planned_furniture_m;
+  });
+}
+
 /// Sums the evidence of neighbouring beams for one cause before the cause is looked up.
 class EvidenceAccumulator {
  public:
@@ -219,11 +245,14 @@ class EvidenceAccumulator {
   EvidenceAccumulator& operator=(const EvidenceAccumulator&) = delete;
   EvidenceAccumulator& operator=(EvidenceAccumulator&&) = delete;
 
-  void add(const OutlierCause& cause, double log_likelihood, const Eigen::Vector2d& end_I, bool passes_wall = false) {
+  void add(const OutlierCause& cause, double log_likelihood, const Eigen::Vector2d& end_I, bool passes_wall = false,
+           double before_m = 0.0) {
     if (cause != cause_) flush();
     cause_ = cause;
     sum_.log_likelihood += log_likelihood;
     if (passes_wall) sum_.passed += log_likelihood;
+    sum_.before_m += log_likelihood * before_m;
+    sum_.before_m2 += log_likelihood * before_m * before_m;
     sum_.within.extend(end_I);
   }
 
@@ -345,12 +374,15 @@ PairwiseLikelihoodRatio compare_hypotheses(const LocalizationScan& scan, const P
         const PredictedScan& worse = gain > 0.0 ? b : a;
         const double range = block.range[k], expected = worse.blocks[i].expected[k];
         const PlanRay ray = ray_of(worse, scan, block, k);
-        if (expected > range && ends_in_opening(worse, ray, range, config)) continue;
+        if (expected > range &&
+            (ends_in_opening(worse, ray, range, config) || ends_at_planned_furniture(worse, ray, range, config)))
+          continue;
         const ExplainedOutlier outlier =
             explain_outlier(*worse.storey->structure, ray, range, worse.blocks[i], k, config);
         const Eigen::Vector2d end_I = ray.origin + range * ray.direction;
         const double each = (outlier.object ? 0.5 : 1.0) * std::abs(gain);
-        (gain > 0.0 ? against_b : against_a).add(outlier.cause, each, end_I, outlier.passes_wall);
+        const double before_m = (expected - range) * static_cast<double>(worse.blocks[i].incidence[k]);
+        (gain > 0.0 ? against_b : against_a).add(outlier.cause, each, end_I, outlier.passes_wall, before_m);
         if (outlier.object) (gain > 0.0 ? ends_b : ends_a).add(*outlier.object, each, end_I);
         result.ratio += gain;
       }

@@ -13,6 +13,7 @@ namespace {
 struct UnplannedObject {
   double log_likelihood = 0.0;  ///< each cause's up to its cap
   double length_m = 0.0;        ///< of what beams ended at
+  double flat = 0.0;            ///< of sum, what is as flat as the front of a row of cupboards
   EvidenceByCause::Sum sum;     ///< not capped
 };
 
@@ -26,6 +27,21 @@ bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConf
   return sum.unexplained <= config.outline_share * sum.log_likelihood;
 }
 
+/// Flat, and as far before a face as the front of a row of cupboards is: one coincidence puts all of it where another
+/// pose has a wall, however long it is.
+bool is_flat(const OutlierCause& cause, const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
+  if (cause.kind != OutlierCause::Kind::in_front_of_face || sum.log_likelihood <= 0.0) return false;
+  const double mean_m = sum.before_m / sum.log_likelihood;
+  const double variance = sum.before_m2 / sum.log_likelihood - mean_m * mean_m;
+  return mean_m >= config.front_depth_min_m && mean_m <= config.front_depth_max_m &&
+         variance <= config.front_sigma_m * config.front_sigma_m;
+}
+
+/// The ends of a front are seen before the walls beside it, too.
+bool is_front(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
+  return object.length_m > config.object_m && object.flat > 0.5 * object.sum.log_likelihood;
+}
+
 /// Most that an object counts for.
 double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
   const double cap = std::max(1.0, object.length_m / config.object_m) * config.object_cap;
@@ -34,19 +50,23 @@ double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& c
 }
 
 /// Joins objects nearer than the gap, until none are.
-void join_near(std::vector<UnplannedObject>& objects, double gap) {
+void join_near(std::vector<UnplannedObject>& objects, const HypothesisComparisonConfig& config) {
   for (std::size_t i = 0; i < objects.size();) {
     std::size_t k = i + 1;
-    while (k < objects.size() && objects[i].sum.within.exteriorDistance(objects[k].sum.within) > gap) ++k;
+    while (k < objects.size() && objects[i].sum.within.exteriorDistance(objects[k].sum.within) > config.object_gap_m)
+      ++k;
     if (k == objects.size()) {
       ++i;
       continue;
     }
     objects[i].log_likelihood += objects[k].log_likelihood;
-    objects[i].length_m += objects[k].length_m;
+    objects[i].flat += objects[k].flat;
     objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
     objects[i].sum.unexplained += objects[k].sum.unexplained;
     objects[i].sum.within.extend(objects[k].sum.within);
+    // A small one may be seen before several faces, one beside the other.
+    const double across_m = objects[i].sum.within.diagonal().norm();
+    objects[i].length_m = across_m <= config.object_m ? across_m : objects[i].length_m + objects[k].length_m;
     objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(k));
     i = 0;
   }
@@ -59,6 +79,8 @@ void EvidenceByCause::add(const OutlierCause& cause, const Sum& more, double sca
   sum.log_likelihood += scale * more.log_likelihood;
   sum.passed += scale * more.passed;
   sum.unexplained += scale * more.unexplained;
+  sum.before_m += scale * more.before_m;
+  sum.before_m2 += scale * more.before_m2;
   sum.within.extend(more.within);
 }
 
@@ -67,7 +89,7 @@ void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
 }
 
 double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
-  double total = 0.0, missing_wall = 0.0;  // the largest
+  double total = 0.0, fronts = 0.0, missing_wall = 0.0;  // the largest wall
   std::vector<UnplannedObject> objects;
   for (const auto& [cause, sum] : sums_) {
     if (cause.kind == OutlierCause::Kind::not_built) {
@@ -77,16 +99,19 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
     } else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
     else {
-      UnplannedObject object{0.0, sum.within.diagonal().norm(), sum};
+      UnplannedObject object{0.0, sum.within.diagonal().norm(), is_flat(cause, sum, config) ? sum.log_likelihood : 0.0,
+                             sum};
       object.log_likelihood =
           std::min(sum.log_likelihood, is_outlined(sum, config) ? config.outlined_cap : config.object_cap);
       objects.push_back(object);
     }
   }
-  join_near(objects, config.object_gap_m);
-  for (const UnplannedObject& object : objects) total += std::min(object.log_likelihood, cap_of(object, config));
+  join_near(objects, config);
+  for (const UnplannedObject& object : objects)
+    (is_front(object, config) ? fronts : total) += std::min(object.log_likelihood, cap_of(object, config));
   const double others = total - missing_wall;
-  return others + std::min(missing_wall, config.missing_wall_cap + corroborated * others);
+  const double front = std::min(fronts, config.front_cap + corroborated * total);
+  return others + front + std::min(missing_wall, config.missing_wall_cap + corroborated * (others + front));
 }
 
 }  // namespace plumbline::slam

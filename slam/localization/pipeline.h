@@ -64,6 +64,7 @@ struct LocalizationConfig : PlanUpdateConfig {
   LocalizationConfig() {
     update_m = 0.2;           // scans from one position are not independent
     index.furniture = false;  // it may have moved
+    mass_shown = 0.005;       // less than exp(-search.convergence.log_ratio): what keeps it from CONVERGED is listed
   }
 
   double update_s = 1.0;  // assumed

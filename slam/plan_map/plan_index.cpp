@@ -172,9 +172,8 @@ void drop_out_of_sight(std::vector<PlanSegment>& segments, const std::vector<Loc
   number_elements(segments);
 }
 
-std::shared_ptr<const Structure> structure_in_I(const bim::Plan& plan_W, const Pose& X_WI) {
-  if (plan_W.structure.triangles.empty()) return nullptr;
-  bim::BuildingMesh mesh = plan_W.structure;
+std::shared_ptr<const Structure> structure_in_I(bim::BuildingMesh mesh, const Pose& X_WI) {
+  if (mesh.triangles.empty()) return nullptr;
   const Pose X_IW = X_WI.inverse();
   for (Eigen::Vector3d& p : mesh.vertices) {
     const Eigen::Vector3d p_I = X_IW * p;
@@ -261,14 +260,19 @@ PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::stri
   PlanIndex index;
   index.config = config;
   index.X_WI = plan_fixed_frame(plan_W);
-  const std::shared_ptr<const Structure> structure = structure_in_I(plan_W, index.X_WI);
-  for (const int i : storeys_in_use(plan_W, storey))
+  const std::shared_ptr<const Structure> structure = structure_in_I(plan_W.structure, index.X_WI),
+                                         furniture = structure_in_I(plan_W.furniture, index.X_WI);
+  for (const int i : storeys_in_use(plan_W, storey)) {
     index.storeys.push_back(make_storey(plan_W, i, index.X_WI, config, structure));
+    index.storeys.back().furniture = furniture;
+  }
   return index;
 }
 
 int add_storey(PlanIndex& index, const bim::Plan& plan_W, int plan_storey) {
+  const std::shared_ptr<const Structure> furniture = index.storeys.front().furniture;
   index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, index.storeys.front().structure));
+  index.storeys.back().furniture = furniture;
   return static_cast<int>(index.storeys.size()) - 1;
 }
 

@@ -78,6 +78,7 @@ struct StoreyIndex {
   FaceSectors sectors;                         ///< by cell of the grid
   std::vector<std::vector<int>> visible;       ///< per cell of the grid: lines seen from it, ascending
   std::shared_ptr<const Structure> structure;  ///< of the whole plan; copies of the storey share it
+  std::shared_ptr<const Structure> furniture;  ///< that was planned, of the whole plan; null where none was
 
   /// Height in I of the floor at p. m.
   [[nodiscard]] double floor_at(const Eigen::Vector2d& p_I) const {

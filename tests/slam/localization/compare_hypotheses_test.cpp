@@ -17,10 +17,26 @@ constexpr double shift_x = 9.0, shift_y = 1.0;  // of the second of the twin roo
 
 synthetic::Box column_at(double x, double y, double height = 2.8) { return {{x, y, 0.0}, {x + 0.4, y + 0.4, height}}; }
 
+/// Furniture of a plan.
+bim::BuildingMesh mesh_of(const synthetic::Box& box) {
+  bim::BuildingMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.emplace_back((i & 1) != 0 ? box.max.x() : box.min.x(), (i & 2) != 0 ? box.max.y() : box.min.y(),
+                               (i & 4) != 0 ? box.max.z() : box.min.z());
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  mesh.element.assign(mesh.triangles.size(), 0);
+  mesh.elements.emplace_back().kind = bim::ElementKind::obstacle;
+  return mesh;
+}
+
 /// Standing where one stands, in the first room, compared with standing in the other.
 PairwiseLikelihoodRatio compare_here_and_there(const synthetic::House& planned, const synthetic::House& built,
-                                               const Pose& X_WR, std::uint64_t seed) {
-  const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
+                                               const Pose& X_WR, std::uint64_t seed,
+                                               const bim::BuildingMesh& furniture = {}) {
+  bim::Plan plan = synthetic::plan_of(planned);
+  plan.furniture = furniture;
+  const PlanIndex index = make_plan_index(plan, "ground", {});
   const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}, seed).scan;
   Pose X_there = X_WR;
   X_there.t += Eigen::Vector3d(shift_x, shift_y, 0.0);
@@ -103,6 +119,24 @@ TEST_P(CompareHypothesesAt, AColumnDecidesAndWiderFurnitureDoesNot) {
   const PairwiseLikelihoodRatio furniture = compare_here_and_there(planned, cupboard, somewhere(), 6);
   EXPECT_GT(in_the_end(furniture.against_a), 0.0);
   EXPECT_LE(in_the_end(furniture.against_a), config.object_cap);
+}
+
+// The other room is 0.6 m less deep; where its wall is, cupboards stand here.
+TEST_P(CompareHypothesesAt, AWallOfCupboardsDoesNotDecide) {
+  const synthetic::Box cupboards{{4.4, 0.0, 0.0}, {5.0, 4.0, 2.4}};
+  synthetic::House planned = twins_, built = twins_;
+  planned.boxes.push_back({{4.4 + shift_x, shift_y, 0.0}, {5.0 + shift_x, 4.0 + shift_y, 2.8}});
+  built.boxes.push_back(cupboards);
+  const PairwiseLikelihoodRatio unknown = compare_here_and_there(planned, built, somewhere(), 7);
+  EXPECT_GT(in_the_end(unknown.against_a), 0.0);
+  EXPECT_LT(in_the_end(unknown.against_a), ConvergenceConfig{}.log_ratio);
+  const PairwiseLikelihoodRatio told = compare_here_and_there(planned, built, somewhere(), 7, mesh_of(cupboards));
+  EXPECT_EQ(in_the_end(told.against_a), 0.0);
+  // Nor are they evidence for this room where they do not stand.
+  const PairwiseLikelihoodRatio gone = compare_here_and_there(planned, twins_, somewhere(), 8, mesh_of(cupboards));
+  const PairwiseLikelihoodRatio never = compare_here_and_there(planned, twins_, somewhere(), 8);
+  EXPECT_EQ(in_the_end(gone.against_b), in_the_end(never.against_b));
+  EXPECT_GT(in_the_end(gone.against_b), 0.0) << "beams pass the other room's wall";
 }
 
 // A beam that passes a post and ends far behind it passes the post's edge near by.
@@ -243,6 +277,31 @@ TEST(EvidenceByCause, AMissingWallDecidesOnlyWithOthers) {
   EXPECT_EQ(with_thing.total(config), config.missing_wall_cap + 1.5);
   evidence.add(other, 50.0, 50.0);
   EXPECT_EQ(evidence.total(config), 2.0 * config.cause_cap) << "two walls are missing";
+}
+
+// Two rooms with built-in cupboards, which stand where the rooms of another flat have their walls.
+TEST(EvidenceByCause, FrontsOfCupboardsDecideOnlyWithOthers) {
+  const HypothesisComparisonConfig config;
+  const auto before = [](double depth_m, double sigma_m, double y) {
+    EvidenceByCause::Sum sum = seen_in(50.0, {Eigen::Vector2d(0.0, y), Eigen::Vector2d(3.0, y)});
+    sum.before_m = 50.0 * depth_m;
+    sum.before_m2 = 50.0 * (depth_m * depth_m + sigma_m * sigma_m);
+    return sum;
+  };
+  const auto cause = [](int wall) { return OutlierCause{OutlierCause::Kind::in_front_of_face, wall, 2}; };
+  EvidenceByCause fronts;
+  fronts.add(cause(1), before(0.6, 0.02, 0.0));
+  EXPECT_EQ(fronts.total(config), config.front_cap);
+  fronts.add(cause(2), before(0.35, 0.02, 5.0));
+  EXPECT_EQ(fronts.total(config), config.front_cap) << "what one flat has in one room it has in others";
+  EXPECT_LT(fronts.total(config), ConvergenceConfig{}.log_ratio);
+  fronts.add({OutlierCause::Kind::unplanned, 9, 9}, 2.0);
+  EXPECT_EQ(fronts.total(config), config.front_cap + 3.0);
+  for (const auto& [depth_m, sigma_m] : {std::pair(1.5, 0.02), std::pair(0.1, 0.02), std::pair(0.5, 0.2)}) {
+    EvidenceByCause other;
+    other.add(cause(1), before(depth_m, sigma_m, 0.0));
+    EXPECT_GT(other.total(config), ConvergenceConfig{}.log_ratio) << depth_m << " " << sigma_m;
+  }
 }
 
 TEST(EvidenceByCause, AWallThatBeamsEndInIsNotMissing) {

@@ -139,13 +139,13 @@ TEST(Hypotheses, TheFitAlongThePathToThePresentPoseIsTheTrackedOneWhereThePoseWa
   EXPECT_EQ(set.all().front().scans, static_cast<int>(twins.scans.size()));
 }
 
-// Without a margin, since six scans make two looks.
+// With a third of the margin, since six scans make two looks.
 TEST(Hypotheses, AFirstLookByFewColumnsRulesOutNothingThatAllWouldKeep) {
   const TwinRooms twins = twin_rooms_scans();
   const auto hypotheses_after_trying_many = [&](int screening_columns) {
     HypothesisConfig config;
     config.screening_columns = screening_columns;
-    config.screening_margin = 0.0;
+    config.screening_margin = 5.0;
     HypothesisSet set(config, {}, {}, {});
     track_and_add_twin(twins, set);
     std::vector<StoreyPose> poses;
