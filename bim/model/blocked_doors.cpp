@@ -48,6 +48,9 @@ void warn_of_blocked_doors(Building& building, const BlockedDoorConfig& config) 
   for (const Opening& door : building.openings) {
     if (!is_open(door)) continue;
     const Wall& host = building.walls[static_cast<std::size_t>(door.wall)];
+    if (door.kind == OpeningKind::opening_void && host.storey >= 0 &&
+        door.z0_m > building.storeys[static_cast<std::size_t>(host.storey)].elevation_m + config.sill_m)
+      continue;
     const Polygon2 doorway = doorway_in(host, door, config.before_m);
     const Region2 region = unite(std::vector<Polygon2>{doorway});
     const auto in_the_way = [&](const auto& element) {

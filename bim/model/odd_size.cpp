@@ -7,6 +7,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/median.h"
+#include "bim/model/permanence.h"
 
 namespace plumbline::bim {
 
@@ -14,7 +15,8 @@ namespace {
 
 // Of doors in general: the gates of a hangar and the hatches of an attic are few. Halls and naves are lower than 50 m;
 // millimetres that are taken for inches make storeys of 60 m.
-constexpr double lowest_door_m = 1.0, highest_door_m = 5.0, highest_storey_m = 50.0;
+constexpr double lowest_door_m = 1.0, highest_door_m = 5.0, highest_storey_m = 50.0,
+                 longest_furniture_m = 50.0;  // a row of racks; a desk of 1.2 m in millimetres is 1.2 km
 
 std::string rounded(double length_m) { return format_number(std::round(length_m * 1e3) / 1e3); }
 
@@ -50,6 +52,14 @@ std::string odd_size(const Building& building) {
   for (const Storey& storey : building.storeys)
     if (storey.height_m > highest_storey_m)
       return "a storey of it is " + rounded(storey.height_m) + " m high; is the unit right?";
+  for (const Obstacle& obstacle : building.obstacles) {
+    const bool is_furniture = may_have_moved(obstacle) && obstacle.kind != "proxy" && obstacle.kind != "covering";
+    if (!is_furniture || obstacle.body.vertices.empty()) continue;
+    Eigen::AlignedBox3d size;
+    for (const Eigen::Vector3d& p : obstacle.body.vertices) size.extend(p);
+    if (const double longest = size.sizes().maxCoeff(); longest > longest_furniture_m)
+      return "its '" + obstacle.id + "' is " + rounded(longest) + " m long; is the unit right?";
+  }
   return {};
 }
 

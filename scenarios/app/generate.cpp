@@ -214,7 +214,7 @@ int generate(const GenerateOptions& options) {
       throw InputError({"--scenario", 0, 0}, "is the plan's own file; name another");
   }
   const std::string scenario = options.scenario.empty() ? "" : scenario_for(generated, text, options);
-  write_file(options.out, text);
+  write_file(options.out, is_ifc(options.out) ? bim::write_ifc(bim::read_plan_text(text, options.out)) : text);
   if (!options.scenario.empty()) write_file(options.scenario, scenario);
   return 0;
 }
@@ -234,7 +234,7 @@ CommandLine add_family(CommandLine& program, const bim::GeneratorRow& row,
                        const std::shared_ptr<GenerateOptions>& options) {
   const std::string name(row.name);
   CommandLine line = program.add_command(name, std::string(row.summary));
-  line.option("-o,--out", options->out, "plan to write; - for stdout").required();
+  line.option("-o,--out", options->out, "plan or IFC file to write; - for a plan on stdout").required();
   line.option("--scenario", options->scenario, "also writes a scenario that walks through all rooms");
   line.flag("--force", options->force, "replace files that are there");
   for (const bim::OptionRow& option : bim::generator_options(name)) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,14 +54,22 @@ int print_config(const std::string& name, bool all, slam::MethodTable table) {
   return 0;
 }
 
-/// Of the library by the names that run takes, of another folder by their paths.
+/// Of the library by the names that run takes, of another folder by their paths. Throws InputError of the first that
+/// cannot be read, once the others are listed.
 int list_scenarios(const std::string& given) {
   const std::string folder = given.empty() ? library_folder() : given;
   if (folder.empty())
     throw EnvironmentError("the scenarios that come with the program are not beside it; name a folder with scenarios");
   if (!fs::is_directory(folder)) throw InputError({folder, 0, 0}, "no such directory; name one with scenarios in it");
+  std::optional<InputError> wrong;
   for (const std::string& path : scenario_files(folder)) {
-    const Scenario scenario = read_scenario(read_text_file(path), path).scenario;
+    Scenario scenario;
+    try {
+      scenario = read_scenario(read_text_file(path), path).scenario;
+    } catch (const InputError& error) {
+      if (!wrong) wrong = error;
+      continue;
+    }
     std::string methods;
     for (const std::string& name : scenario.methods) methods += " " + name;
     const std::string shown =
@@ -68,6 +77,7 @@ int list_scenarios(const std::string& given) {
     std::printf("%-40s %-20s%s\n", printable(shown).c_str(), printable(scenario.name).c_str(),
                 printable(methods).c_str());
   }
+  if (wrong) throw *wrong;
   return 0;
 }
 

@@ -13,6 +13,20 @@ namespace plumbline::scenarios {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// What is wrong with a file is said where it is used.
+bool may_be_scenario(const std::string& path) {
+  try {
+    const Tree tree = read_yaml(read_text_file(path), path);
+    return tree.is_map() && tree.find("scenario") != nullptr;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+}  // namespace
+
 std::string library_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -29,9 +43,8 @@ std::vector<std::string> scenario_files(const std::string& folder) {
   std::vector<std::string> paths;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().string();
-    if (entry.path().extension() != ".yaml" || path.ends_with(".plan.yaml")) continue;
-    const Tree tree = read_yaml(read_text_file(path), path);
-    if (tree.is_map() && tree.find("scenario") != nullptr) paths.push_back(path);
+    if (entry.path().extension() != ".yaml" || path.ends_with(".plan.yaml") || entry.is_directory()) continue;
+    if (may_be_scenario(path)) paths.push_back(path);
   }
   std::sort(paths.begin(), paths.end());
   return paths;

@@ -10,7 +10,7 @@ namespace plumbline::scenarios {
 /// where they are in neither.
 [[nodiscard]] std::string library_folder();
 
-/// Files of scenarios in a folder and those in it, in order. Throws InputError on a file that is no YAML.
+/// Files of scenarios in a folder and those in it, in order; also those of which nobody knows, as they are no YAML.
 [[nodiscard]] std::vector<std::string> scenario_files(const std::string& folder);
 
 /// What INPUT of a command names: itself where it is there; else the scenario of the library that has this name, with

@@ -78,6 +78,19 @@ class SweepFolder {
   std::vector<std::string> made_;  ///< folders that were not there, outermost first
 };
 
+/// Another sweep's tables would be replaced. One that has grown has some of its runs there.
+void check_no_other_sweep(const Sweep& sweep, const std::string& out) {
+  std::error_code error;
+  bool any = false;
+  for (fs::directory_iterator it(out + "/results", error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() != ".json") continue;
+    const std::string key = it->path().stem().string();
+    if (std::any_of(sweep.runs.begin(), sweep.runs.end(), [&](const SweepRun& run) { return run.key == key; })) return;
+    any = true;
+  }
+  if (any) throw InputError({out, 0, 0}, "holds the results of another sweep; name another --out");
+}
+
 /// A child's error message without the place in a file that the sweep made.
 std::string without_place(const std::string& last_line, const std::string& folder) {
   if (!last_line.starts_with(folder)) return last_line;
@@ -294,6 +307,7 @@ int walks_of(const Sweep& sweep) { return static_cast<int>(walk_numbers(sweep).s
 std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
   for (const std::string& key : options.pages)
     if (key != worst_run) (void)asked_run(sweep, {}, key);  // refused before any run is made
+  check_no_other_sweep(sweep, options.out);
   const SweepFolder folder(options.out);
   const std::vector<const SweepRun*> runs = runs_of(sweep, options.shard);
   try {
@@ -325,6 +339,7 @@ std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& fo
     throw InputError({folders.front(), 0, 0}, "and its like lack " + std::to_string(missing) + " of " +
                                                   std::to_string(sweep.runs.size()) + " runs, the first is " +
                                                   first_missing + "; run the shards again, they go on");
+  check_no_other_sweep(sweep, out);
   const SweepFolder folder(out);
   for (std::size_t i = 0; i < sweep.runs.size(); ++i)
     if (!is_made(folder.result(sweep.runs[i]), sweep.runs[i])) write_file(folder.result(sweep.runs[i]), texts[i]);

@@ -102,6 +102,17 @@ TEST_F(Manners, ASparseFileIsRefusedBeforeItIsRead) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+TEST_F(Manners, AFolderWithAFileThatIsNoneListsTheOtherScenarios) {
+  write_file(folder_ / "good.yaml", read_file(input()));
+  write_file(folder_ / "broken.yaml", "scenario: [1\n");
+  fs::create_directory(folder_ / "folder.yaml");
+  const Outcome outcome = plumbline({"scenarios", folder_.path()});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.out.find("good.yaml"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("broken.yaml:"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
 TEST_F(Manners, ALinkToNothingIsNoPlaceForOutput) {
   fs::create_symlink(folder_ / "nowhere", folder_ / "link");
   refuse({"simulate", input(), "--out", folder_ / "link"}, "link: is a link to '");

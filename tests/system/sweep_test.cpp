@@ -257,5 +257,21 @@ TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {
   }
 }
 
+TEST(Sweep, ReplacesNoTablesOfAnother) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  fs::create_directories(folder / "out/results");
+  write_file(folder / "out/results/other--1.json", "{}");
+  write_file(folder / "out/table.csv", "rows of another");
+  write_file(folder / "short.yaml", read_file(project_file("tests/system/short.yaml")));
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [short.yaml]\nseeds: 1\n");
+  const Outcome outcome = plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("holds the results of another sweep; name another --out"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(read_file(folder / "out/table.csv"), "rows of another");
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests

@@ -11,6 +11,7 @@
 #include "bim/formats/plan_yaml/plan_stairs.h"
 #include "bim/geometry/polygon_boolean.h"
 #include "bim/model/blocked_doors.h"
+#include "bim/model/odd_size.h"
 #include "bim/model/boxes.h"
 #include "bim/model/materials.h"
 #include "bim/model/rooms.h"
@@ -42,6 +43,8 @@ class PlanBuilder {
     check_rooms();
     add_stairs(plan_, tree_, building_);
     warn_of_blocked_doors(building_);
+    if (const std::string odd = odd_size(building_); !odd.empty())
+      building_.warnings.push_back({"", "odd_size", odd + " Lengths of a plan are in metres"});
     return std::move(building_);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -53,6 +54,19 @@ TEST_F(GenerateCommand, WritesAPlanAndAScenarioAndReplacesNothing) {
   EXPECT_EQ(run("corridor --rooms 4 --force -o c.plan.yaml"), 0) << said_;
   ASSERT_EQ(run("corridor --rooms 3 -o -"), 0);
   EXPECT_EQ(said_, plan);
+}
+
+TEST_F(GenerateCommand, AFamilyMayBeWrittenAsIfc) {
+  ASSERT_EQ(run("corridor --rooms 3 -o c.plan.yaml"), 0) << said_;
+  ASSERT_EQ(run("corridor --rooms 3 -o c.ifc --scenario c.yaml"), 0) << said_;
+  const bim::Building ifc = bim::load_building(folder_ / "c.ifc"), plan = bim::load_building(folder_ / "c.plan.yaml");
+  EXPECT_EQ(ifc.walls.size(), plan.walls.size());
+  ASSERT_EQ(ifc.rooms.size(), plan.rooms.size());
+  const Scenario scenario = read_scenario(read_text_file(folder_ / "c.yaml"), "c.yaml").scenario;
+  EXPECT_EQ(scenario.building, "c.ifc");
+  for (const std::string& room : scenario.route.rooms)
+    EXPECT_TRUE(std::any_of(ifc.rooms.begin(), ifc.rooms.end(), [&](const bim::Room& r) { return r.id == room; }))
+        << room;
 }
 
 TEST_F(GenerateCommand, SaysWhatIsWrong) {

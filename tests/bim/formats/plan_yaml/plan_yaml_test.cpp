@@ -288,6 +288,18 @@ TEST(PlanYaml, RoundRoomsHaveSimpleOutlines) {
   EXPECT_EQ(std::min(building.openings[0].rooms[0], building.openings[0].rooms[1]), 0);
 }
 
+TEST(PlanYaml, LengthsInMillimetresAreDoubted) {
+  EXPECT_EQ(plan_warnings(read_plan_text(sound, "p.yaml"), "odd_size"), 0);
+  const std::string storeys = "storeys: [{id: g, height_m: 3}]\n";
+  const std::string hall = "plan: 1\n" + storeys +
+                           "walls:\n  - {id: s, storey: g, a: [0, 0], b: [9000, 0]}\n"
+                           "  - {id: e, storey: g, a: [9000, 0], b: [9000, 5000]}\n";
+  EXPECT_EQ(plan_warnings(read_plan_text(hall, "p.yaml"), "odd_size"), 1);
+  const std::string desk =
+      sound + "  - {id: desk, storey: ground, shape: box, at: [2, 2], size: [800, 600], height_m: 0.75}\n";
+  EXPECT_EQ(plan_warnings(read_plan_text(desk, "p.yaml"), "odd_size"), 1);
+}
+
 TEST(PlanYaml, ADoorThatAWallOrAColumnFillsIsSaid) {
   const std::string wall = "thickness_m: 0.1}\n", door = "height_m: 2.1}\n";
   const std::string second = "  - {id: second, storey: ground, a: [4, 0], b: [4, 5], " + wall;
@@ -297,6 +309,13 @@ TEST(PlanYaml, ADoorThatAWallOrAColumnFillsIsSaid) {
   both.insert(both.find(door) + door.size(),
               "  - {id: other, wall: second, kind: door, s_m: 2.5, width_m: 1, height_m: 2.1}\n");
   EXPECT_EQ(plan_warnings(read_plan_text(both, "p.yaml"), "blocked_door"), 0) << "both leaves have the doorway";
+  const auto hatch_with_sill = [&](const std::string& sill_m) {
+    std::string text = with(wall, wall + second);
+    text.replace(text.find("kind: door"), 10, "kind: void, sill_m: " + sill_m);
+    return plan_warnings(read_plan_text(text, "p.yaml"), "blocked_door");
+  };
+  EXPECT_EQ(hatch_with_sill("0.1"), 1);
+  EXPECT_EQ(hatch_with_sill("0.6"), 0) << "nobody goes through it";
   const auto post_at = [&](const std::string& at) {
     return plan_warnings(read_plan_text(with("at: [6, 4]", "at: " + at), "p.yaml"), "blocked_door");
   };
