@@ -73,6 +73,7 @@ class ConditionPage {
       : building_(building), map_(map), compass_(compass) {
     input_.plan = *building.plan_as_planned();
     input_.obstacles = obstacles_of(building.as_planned(), input_.plan);
+    input_.flights = flights_of(building.as_planned());
     for (bim::PlanRoom& room : input_.plan.rooms)
       for (const bim::Room& named : building.as_planned().rooms)
         if (named.id == room.name && !named.name.empty()) {

@@ -41,6 +41,19 @@ std::string face_strokes(const bim::PlanFace& face, double floor_z) {
   return out;
 }
 
+/// Its risers and an arrow that goes up.
+std::string draw_flight(const ReportFlight& flight) {
+  std::string out;
+  for (const auto& [a, b] : flight.risers_W) out += svg::line(a, b, "class=\"riser\"");
+  if (flight.risers_W.size() < 2) return out;
+  const auto middle = [](const auto& riser) -> Eigen::Vector2d { return 0.5 * (riser.first + riser.second); };
+  const Eigen::Vector2d foot = middle(flight.risers_W.front()), head = middle(flight.risers_W.back());
+  constexpr double arrow_m = 0.2;
+  const Eigen::Vector2d back = arrow_m * (foot - head).normalized(), aside(-back.y(), back.x());
+  return out + svg::polyline({foot, head}, "class=\"riser\" fill=\"none\"") +
+         svg::polyline({head + back + 0.5 * aside, head, head + back - 0.5 * aside}, "class=\"riser\" fill=\"none\"");
+}
+
 bool is_shown(const ReportInput& input, int storey) {
   return std::any_of(input.storeys.begin(), input.storeys.end(),
                      [&](const ReportStorey& shown) { return shown.index == storey; });
@@ -274,6 +287,8 @@ std::string draw_plan(const ReportInput& input, int storey) {
   std::string out;
   for (const auto& room : input.plan.rooms)
     if (room.storey == storey) out += svg::polygon(room.polygon, "class=\"room\"");
+  for (const ReportFlight& flight : input.flights)
+    if (flight.from == storey || flight.to == storey) out += draw_flight(flight);
   for (const auto& face : input.plan.faces)
     if (face.storey == storey) out += face_strokes(face, floor_z);
   for (const ReportObstacle& obstacle : input.obstacles)
@@ -326,6 +341,8 @@ std::string map_key(const ReportInput& input) {
     found +=
         area("fill=\"var(--asbuilt)\" fill-opacity=\".55\" stroke=\"var(--asbuilt)\"", "built otherwise than planned") +
         area("fill=\"none\" stroke=\"var(--planned)\" stroke-dasharray=\"3 2\"", "planned and not built");
+  if (!input.flights.empty())
+    found += item("stroke=\"var(--wall)\" stroke-width=\"20\" stroke-dasharray=\"1 4\"", "stairs (arrow: up)");
   return "<div class=\"key\">" +
          item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
          area("class=\"thing\"", "columns, furniture and other obstacles (dashed: with gaps)") +

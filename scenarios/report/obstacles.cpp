@@ -2,6 +2,7 @@
 #include "scenarios/report/obstacles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -21,6 +22,21 @@ bool stands_in_the_way(const bim::Building& building, int storey, double z0, dou
 }
 
 }  // namespace
+
+std::vector<ReportFlight> flights_of(const bim::Building& building) {
+  std::vector<ReportFlight> flights;
+  for (const bim::Stair& stair : building.stairs)
+    for (const bim::StairFlight& flight : stair.flights) {
+      ReportFlight shown{stair.from, stair.to, {}};
+      const Eigen::Vector2d up(std::cos(flight.yaw), std::sin(flight.yaw)), left(-up.y(), up.x());
+      for (int i = 0; i <= flight.steps; ++i) {
+        const Eigen::Vector2d at = flight.start + i * flight.run_m * up, half = 0.5 * flight.width_m * left;
+        shown.risers_W.emplace_back(at - half, at + half);
+      }
+      flights.push_back(std::move(shown));
+    }
+  return flights;
+}
 
 std::vector<ReportObstacle> obstacles_of(const bim::Building& building, const bim::Plan& plan) {
   std::vector<ReportObstacle> obstacles;

@@ -122,6 +122,7 @@ struct ReportInput {
   Tree results;
   bim::Plan plan;
   std::vector<ReportObstacle> obstacles;
+  std::vector<ReportFlight> flights;
   std::vector<ReportStorey> storeys;  ///< those the robot was on, from the lowest up; at least one
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;

@@ -186,6 +186,7 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   input.results = read_json(score::write_results(run, score), "results.json");
   input.plan = run.building->plan_as_built();
   input.obstacles = obstacles_of(run.building->as_built(), run.building->plan_as_built());
+  input.flights = flights_of(run.building->as_built());
   const std::vector<bim::Room>& rooms = run.building->as_built().rooms;
   for (std::size_t i = 0; i < input.plan.storeys.size(); ++i)
     input.plan.storeys[i].name = name_of(run.building->as_built().storeys[i]);

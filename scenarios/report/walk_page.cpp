@@ -48,9 +48,10 @@ std::string draw_floor(const sim::ClearanceMap& space, const Eigen::Vector2d& st
     }
     end_run(grid.nx);
   }
+  constexpr double overlap = 1.2;  // or the paper shows between the rows
   const auto path = [&](const std::string& d, std::string_view colour) {
     return "<path d=\"" + d + "\" stroke=\"" + std::string(colour) + "\" stroke-width=\"" +
-           svg::number(grid.cell * stride) + "\" fill=\"none\"/>";
+           svg::number(overlap * grid.cell * stride, 3) + "\" fill=\"none\"/>";
   };
   return path(rows[1], elsewhere_colour) + path(rows[0], floor_colour);
 }
@@ -86,10 +87,8 @@ std::string draw_reasons(const bim::Building& building, const WalkCoverage& walk
 std::string draw_names(const bim::Building& building, int storey) {
   std::string out;
   for (const bim::Room& room : building.rooms) {
-    if (room.storey != storey || name_of(room).size() > 18) continue;
-    Eigen::Vector2d corner(1e9, -1e9);
-    for (const auto& p : room.polygon) corner = {std::min(corner.x(), p.x()), std::max(corner.y(), p.y())};
-    out += svg::text(corner + Eigen::Vector2d(0.3, -0.6), name_of(room), "");
+    if (room.storey != storey || room.polygon.empty() || name_of(room).size() > 18) continue;
+    out += svg::text(room_name_place(room.polygon).from, name_of(room), "");
   }
   return out;
 }
@@ -112,6 +111,7 @@ class StoreyCard {
       : building_(space.building()), space_(space), storey_(storey) {
     bim::Plan plan = bim::make_plan(site.as_built);
     input_.obstacles = obstacles_of(site.as_built, plan);
+    input_.flights = flights_of(site.as_built);
     input_.plan = std::move(plan);
     const bim::Storey& of = building_.storeys[static_cast<std::size_t>(storey)];
     name_ = of.name.empty() ? of.id : of.name;

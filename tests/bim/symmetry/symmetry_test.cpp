@@ -9,9 +9,7 @@
 
 #include "bim/config/tree.h"
 #include "bim/formats/plan_yaml/plan_yaml.h"
-#include "bim/geometry/polygon_boolean.h"
 #include "bim/load/load.h"
-#include "bim/model/extrude.h"
 #include "bim/random/stream.h"
 #include "bim/symmetry/symmetry_bodies.h"
 #include "tests/bim/symmetry/moved.h"
@@ -382,33 +380,6 @@ TEST(Symmetry, AMovedDoorOfAFileIsTheDeviation) {
   ASSERT_EQ(report.building.size(), 1U);
   EXPECT_TRUE(has(report.building, Isometry2::turn(half_turn, {6, 4}), 1e-6, 1e-4));
   EXPECT_NEAR(report.building.front().similarity.deviation_m, 0.1, 1e-4);
-}
-
-// A mesh of a whole building in one piece: of its inside nothing is known, and its convex outline is no wall.
-TEST(Symmetry, OneBodyAroundTheStoreyIsNotCompared) {
-  const Building flat = box(6.0, 4.0, room(6.0, 4.0));
-  Building piece = flat;
-  piece.walls.clear();
-  Obstacle shell;
-  shell.id = "shell";
-  const auto add = [&](double x0, double y0, double x1, double y1, double z0, double z1) {
-    const Solid body = extrude(unite(std::vector<Polygon2>{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}), z0, z1);
-    const auto first = static_cast<int>(shell.body.vertices.size());
-    shell.body.vertices.insert(shell.body.vertices.end(), body.vertices.begin(), body.vertices.end());
-    for (const Eigen::Vector3i& t : body.triangles) shell.body.triangles.emplace_back(t.array() + first);
-  };
-  add(0.0, 0.0, 6.0, 0.2, 0.0, 3.0);
-  add(0.0, 3.8, 6.0, 4.0, 0.0, 3.0);
-  add(0.0, 0.2, 0.2, 3.8, 0.0, 3.0);
-  add(5.8, 0.2, 6.0, 3.8, 0.0, 3.0);
-  add(0.0, 0.0, 6.0, 4.0, 2.8, 2.9);
-  piece.obstacles.push_back(shell);
-  ASSERT_FALSE(analyse_symmetry(flat).storeys.empty());
-  const SymmetryReport report = analyse_symmetry(piece);
-  EXPECT_TRUE(report.storeys.empty());
-  EXPECT_TRUE(report.building.empty());
-  EXPECT_EQ(report.left_out, std::vector<std::string>{"shell"});
-  EXPECT_TRUE(analyse_symmetry(flat).left_out.empty());
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/model/extrude.h"
 
@@ -61,6 +63,24 @@ TEST(ReportObstacles, AColumnThatLeansDoesNotFillItsOutline) {
   ASSERT_EQ(obstacles.size(), 1U);
   EXPECT_EQ(obstacles[0].id, "pillar");
   EXPECT_FALSE(obstacles[0].filled);
+}
+
+TEST(ReportFlights, HaveARiserForEachStepAndOneAtTheTop) {
+  bim::Building building;
+  bim::Stair stair;
+  stair.from = 0;
+  stair.to = 1;
+  stair.flights.push_back({{2.0, 1.0}, 0.5 * std::numbers::pi, 1.2, 0.0, 10, 0.17, 0.3});
+  building.stairs.push_back(stair);
+  const std::vector<ReportFlight> flights = flights_of(building);
+  ASSERT_EQ(flights.size(), 1U);
+  EXPECT_EQ(flights[0].from, 0);
+  EXPECT_EQ(flights[0].to, 1);
+  ASSERT_EQ(flights[0].risers_W.size(), 11U);
+  const auto& [a, b] = flights[0].risers_W.back();
+  EXPECT_LT((0.5 * (a + b) - Eigen::Vector2d(2.0, 4.0)).norm(), 1e-12);
+  EXPECT_NEAR((a - b).norm(), 1.2, 1e-12);
+  EXPECT_NEAR(a.y(), b.y(), 1e-12) << "across the way up";
 }
 
 }  // namespace
