@@ -8,7 +8,7 @@
 namespace plumbline::scenarios {
 namespace {
 
-constexpr double away_m = 100.0;  ///< the other place
+constexpr double away_m = 1000.0;  ///< the other place, out of sight
 
 /// Upright squares of 10 m across the x axis, an element each.
 bim::BuildingMesh walls_at(const std::vector<double>& xs) {
