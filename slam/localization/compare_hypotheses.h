@@ -96,8 +96,7 @@ struct HypothesisComparisonConfig {
     v("front_sigma_m", front_sigma_m,
       Field{.doc = "standard deviation of that distance up to which the object is flat", .min = 0});
     // Less than convergence.log_ratio, as for missing_wall_cap: a wall of cupboards that stands where another pose has
-    // a wall decides nothing alone. Chosen on eight scenarios that were made to
-    // deceive the method.
+    // a wall decides nothing alone. Chosen on eight scenarios that were made to deceive the method.
     v("front_cap", front_cap,
       plain_field("most evidence of all flat objects longer than object_m before walls, where hardly anything else "
                   "speaks against the pose",

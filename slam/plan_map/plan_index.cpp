@@ -197,7 +197,7 @@ bim::WalkedFloors floors_in_I(bim::WalkedFloors floors, const Pose& X_WI) {
 }
 
 StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_WI, const PlanIndexConfig& config,
-                        std::shared_ptr<const Structure> structure) {
+                        std::shared_ptr<const Structure> structure, std::shared_ptr<const Structure> furniture) {
   const bim::PlanStorey& source = plan_W.storeys[static_cast<std::size_t>(plan_storey)];
   StoreyIndex storey;
   storey.plan_storey = plan_storey;
@@ -218,6 +218,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
   storey.sectors = FaceSectors(storey.segments, storey.grid.ray_candidates(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);
   storey.structure = structure ? std::move(structure) : std::make_shared<const Structure>(plan_mesh(storey));
+  storey.furniture = std::move(furniture);
   return storey;
 }
 
@@ -262,17 +263,14 @@ PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::stri
   index.X_WI = plan_fixed_frame(plan_W);
   const std::shared_ptr<const Structure> structure = structure_in_I(plan_W.structure, index.X_WI),
                                          furniture = structure_in_I(plan_W.furniture, index.X_WI);
-  for (const int i : storeys_in_use(plan_W, storey)) {
-    index.storeys.push_back(make_storey(plan_W, i, index.X_WI, config, structure));
-    index.storeys.back().furniture = furniture;
-  }
+  for (const int i : storeys_in_use(plan_W, storey))
+    index.storeys.push_back(make_storey(plan_W, i, index.X_WI, config, structure, furniture));
   return index;
 }
 
 int add_storey(PlanIndex& index, const bim::Plan& plan_W, int plan_storey) {
-  const std::shared_ptr<const Structure> furniture = index.storeys.front().furniture;
-  index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, index.storeys.front().structure));
-  index.storeys.back().furniture = furniture;
+  const StoreyIndex& first = index.storeys.front();
+  index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, first.structure, first.furniture));
   return static_cast<int>(index.storeys.size()) - 1;
 }
 

@@ -127,6 +127,10 @@ TEST(Localization, WhereThePlanHasTwoAnswers) {
   both.back().hypotheses = {{0.6, X_WR, Eigen::Matrix3d::Zero(), ""},
                             {0.4, Pose::from_xyz_yaw({20, 9, 0.5}, 0.0), Eigen::Matrix3d::Zero(), ""}};
   EXPECT_EQ(judge(both, alias).verdict, LocalizationVerdict::late);  // one that is no alias
+  both.back().hypotheses[0].mass = 0.5;
+  both.back().hypotheses[1].mass = 0.01;
+  both.back().hypotheses.push_back({0.49, alias.others_W[0], Eigen::Matrix3d::Zero(), ""});
+  EXPECT_EQ(judge(both, alias).verdict, LocalizationVerdict::honest_ambiguity);  // it is listed, not claimed
 }
 
 TEST(Localization, FurnitureIsNotedAndMakesNoAnswerRight) {

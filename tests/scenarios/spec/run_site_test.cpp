@@ -118,6 +118,8 @@ TEST(RunSite, MethodsAreToldTheWholePlanOrItsBuilding) {
   EXPECT_TRUE(whole.plans_movables());
   EXPECT_GT(solids(*whole.plan_as_planned(), site.as_planned), 0U);
   EXPECT_EQ(solids(*bare.plan_as_planned(), site.as_planned), 0U);
+  EXPECT_FALSE(whole.plan_as_planned()->furniture.triangles.empty());
+  EXPECT_TRUE(bare.plan_as_planned()->furniture.triangles.empty());
   EXPECT_EQ(bare.plan_as_planned()->faces.size(), whole.plan_as_planned()->faces.size());
   EXPECT_EQ(bare.plan_as_built().solids.size(), whole.plan_as_built().solids.size());
 }
