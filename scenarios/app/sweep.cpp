@@ -37,7 +37,7 @@ struct SweepArguments {
   std::uint64_t seed = 1;
 };
 
-std::string run_with_progress(const Sweep& sweep, SweepOptions options) {
+SweepTables run_with_progress(const Sweep& sweep, SweepOptions options) {
   Progress progress(sweep.file.name, {static_cast<double>(sweep.runs.size()), "runs"});
   options.progress = [&](std::size_t done, std::size_t) { progress.at(static_cast<double>(done)); };
   return run_sweep(sweep, options);
@@ -49,6 +49,14 @@ struct CollectArguments {
   std::string out;
   int seeds = 0;
 };
+
+/// What is said of tables that stand in `out`. Throws InputError where runs of it were refused.
+int tell(const SweepTables& tables, const std::string& file, const std::string& out) {
+  print(tables.text + "table: " + printable(out) + "/table.html\n");
+  for (const std::string& note : tables.notes) print_note("plumbline: warning: " + printable(note));
+  if (!tables.refused.empty()) throw InputError({file, 0, 0}, tables.refused);
+  return 0;
+}
 
 std::string default_out(const Sweep& sweep) {
   std::string name = sweep.file.name;
@@ -96,8 +104,7 @@ int submit_to_slurm(const SweepArguments& options, const Sweep& sweep) {
 int collect(const CollectArguments& options, slam::MethodTable table) {
   const Sweep sweep = read_sweep(options.file, options.seeds, table);
   const std::string out = options.out.empty() ? default_out(sweep) : options.out;
-  print(collect_sweep(sweep, options.from, out) + "table: " + printable(out) + "/table.html\n");
-  return 0;
+  return tell(collect_sweep(sweep, options.from, out), options.file, out);
 }
 
 int sweep(const SweepArguments& options, slam::MethodTable table) {
@@ -132,9 +139,9 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
                run.out + "/results holds them, remove those to be made anew");
   };
   catch_interrupts();
-  const std::string text = run_with_progress(sweep, run);
-  print(text + (run.shard ? "results: " + printable(run.out) + "/results\n"
-                          : "table: " + printable(run.out) + "/table.html\n"));
+  const SweepTables tables = run_with_progress(sweep, run);
+  if (!run.shard) return tell(tables, options.file, run.out);
+  print(tables.text + "results: " + printable(run.out) + "/results\n");
   return 0;
 }
 

@@ -119,6 +119,9 @@ Tree result_of(const SweepRun& run, const std::optional<Tree>& results, const st
   if (results && results->find("failure") == nullptr) {
     tree.set("digest", *results->find("digest")).set("duration_s", *results->find("duration_s"));
     tree.set("distance_m", *results->find("distance_m")).set("methods", *results->find("methods"));
+    const Tree* walk = results->find("walk");
+    const Tree* warnings = walk == nullptr ? nullptr : walk->find("warnings");
+    if (warnings != nullptr) tree.set("warnings", *warnings);
     return tree;
   }
   Tree failed = Tree::map();
@@ -132,13 +135,22 @@ std::vector<std::string> methods_of(const Sweep& sweep, const SweepRun& run) {
   return methods;
 }
 
+/// A run whose scenario the program does not take, and why.
+struct Refusal {
+  const SweepRun* run;
+  std::string reason;
+};
+
+InputError error_of(const Refusal& refusal) {
+  const SweepRun& run = *refusal.run;
+  return {{run.scenario, 0, 0},
+          (run.variant.empty() ? "" : "'" + run.variant + "', ") +
+              (run.start.empty() ? "" : "start " + run.start + ", ") + "seed " + std::to_string(run.seed) + ": " +
+              refusal.reason};
+}
+
 void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
-  constexpr int bad_input = 2, scenario_failed = 4;
-  if (end.code == bad_input)
-    throw InputError({run.scenario, 0, 0}, (run.variant.empty() ? "" : "'" + run.variant + "', ") +
-                                               (run.start.empty() ? "" : "start " + run.start + ", ") + "seed " +
-                                               std::to_string(run.seed) + ": " +
-                                               without_place(end.last_line, folder.work()));
+  constexpr int scenario_failed = 4;
   if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
     throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.last_line);
   const std::string file = folder.work() + "/" + run.key + "/results.json";
@@ -147,6 +159,16 @@ void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, co
   write_file(folder.result(run), write_json(result_of(run, results, methods_of(sweep, run), end.last_line)) + "\n");
   std::error_code error;
   fs::remove_all(folder.work() + "/" + run.key, error);
+}
+
+/// The others' results stand; where there is no other, the first refusal is the answer to the whole sweep.
+void keep_refusals(const Sweep& sweep, const SweepFolder& folder, const std::vector<Refusal>& refusals) {
+  if (!refusals.empty() && refusals.size() == sweep.runs.size()) throw error_of(refusals.front());
+  for (const Refusal& refusal : refusals)
+    write_file(folder.result(*refusal.run),
+               write_json(result_of(*refusal.run, std::nullopt, methods_of(sweep, *refusal.run),
+                                    std::string(refused_mark) + refusal.reason)) +
+                   "\n");
 }
 
 /// Which walk of the sweep each is, by the digest of its simulation.
@@ -186,6 +208,7 @@ void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, 
                   const SweepFolder& folder) {
   const std::vector<Group> groups = missing_groups(runs, folder);
   std::size_t done = runs.size();
+  std::vector<Refusal> refusals;
   for (const Group& group : groups) done -= group.size();
   if (done > 0 && options.resumed) options.resumed(done, runs.size());
   run_children(
@@ -199,10 +222,17 @@ void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, 
         return arguments;
       },
       [&](std::size_t i, const ChildEnd& end) {
-        for (const SweepRun* run : groups[i]) keep(sweep, folder, *run, end);
+        constexpr int bad_input = 2;
+        for (const SweepRun* run : groups[i]) {
+          if (end.code == bad_input)
+            refusals.push_back({run, without_place(end.last_line, folder.work())});
+          else
+            keep(sweep, folder, *run, end);
+        }
         done += groups[i].size();
         if (options.progress) options.progress(done, runs.size());
       });
+  keep_refusals(sweep, folder, refusals);
 }
 
 /// The runs whose pages are asked for.
@@ -262,7 +292,7 @@ bool is_page_of(const std::string& page, const std::string& result) {
 }
 
 /// The tables of results that are all there.
-std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out,
+SweepTables write_tables(const Sweep& sweep, const SweepFolder& folder, const std::string& out,
                          const PagesAsked& asked) {
   std::vector<SweepRow> rows;
   for (const SweepRun& run : sweep.runs) {
@@ -283,7 +313,7 @@ std::string write_tables(const Sweep& sweep, const SweepFolder& folder, const st
   write_file(out + "/table.html", table_html(page, rows, cells));
   write_database(out + "/sweep.sqlite", rows, cells);
   write_file(out + "/table.txt", text);
-  return text;
+  return {text, walk_notes(rows), refused_in(rows)};
 }
 
 /// The result of a run among those of shards; empty where there is none of this input.
@@ -304,7 +334,7 @@ std::string find_result(const SweepRun& run, const std::vector<std::string>& fol
 
 int walks_of(const Sweep& sweep) { return static_cast<int>(walk_numbers(sweep).size()); }
 
-std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
+SweepTables run_sweep(const Sweep& sweep, const SweepOptions& options) {
   for (const std::string& key : options.pages)
     if (key != worst_run) (void)asked_run(sweep, {}, key);  // refused before any run is made
   check_no_other_sweep(sweep, options.out);
@@ -319,11 +349,13 @@ std::string run_sweep(const Sweep& sweep, const SweepOptions& options) {
                                                 " runs are done; the same command goes on");
   }
   if (!options.shard) return write_tables(sweep, folder, options.out, {options.pages, options.jobs});
-  return "shard " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->of) + ": " +
-         std::to_string(runs.size()) + " of " + std::to_string(sweep.runs.size()) + " runs are there\n";
+  return {"shard " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->of) + ": " +
+              std::to_string(runs.size()) + " of " + std::to_string(sweep.runs.size()) + " runs are there\n",
+          {},
+          {}};
 }
 
-std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders, const std::string& out) {
+SweepTables collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders, const std::string& out) {
   for (const std::string& folder : folders)
     if (!fs::is_directory(folder + "/results"))
       throw InputError({folder, 0, 0}, "holds no results; name folders that sweep --shard wrote");

@@ -26,14 +26,22 @@ struct SweepOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< called after each run; may be empty
 };
 
-/// Makes the results that are not there yet, those of one walk in a child process, then the tables from all of them;
-/// gives the table as text. Throws InputError where a run refuses its input or another sweep stands in `out`,
-/// EnvironmentError, and Interrupted; what is there by then stays.
-[[nodiscard]] std::string run_sweep(const Sweep& sweep, const SweepOptions& options);
+/// What a sweep has to say when its files are written.
+struct SweepTables {
+  std::string text;  ///< the table
+  std::vector<std::string>
+      notes;            ///< of walks that failed or have warnings, a line for each scenario, variant and start
+  std::string refused;  ///< of runs whose scenario is no input that can be run; empty where there is none
+};
 
-/// Makes the tables in `out` from the results that shards left in these folders, and gives the table as text. Throws
-/// InputError where a run is in none of them, or differs between two.
-[[nodiscard]] std::string collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders,
+/// Makes the results that are not there yet, those of one walk in a child process, then the tables from all of them. A
+/// run that refuses its input is a failed one beside others. Throws InputError where every run does or where another
+/// sweep stands in `out`, EnvironmentError, and Interrupted; what is there by then stays.
+[[nodiscard]] SweepTables run_sweep(const Sweep& sweep, const SweepOptions& options);
+
+/// Makes the tables in `out` from the results that shards left in these folders. Throws InputError where a run is in
+/// none of them, or differs between two.
+[[nodiscard]] SweepTables collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders,
                                         const std::string& out);
 
 /// Number of walks, the most shards that a sweep can be cut into.

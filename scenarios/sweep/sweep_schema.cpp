@@ -32,6 +32,7 @@ SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from 
 - The median distance to convergence counts an identifiable run without `success` as infinite.
 - Rows of SLAM methods give the share of `complete` and the median error.
 - Gates belong to `plumbline run`. A sweep checks none, and its exit code is 0 whatever its table holds.
+- A run whose scenario cannot be walked counts as failed; the others go on, their table is written, and the exit code is 2.
 
 )md";
 

@@ -164,6 +164,8 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
   common.digest = text_at(result, "digest");
   common.failure = text_at(result, "failure");
   common.values.resize(score::metrics().size());
+  if (const Tree* warnings = result.find("warnings"))
+    for (const Tree& warning : warnings->as_list()) common.warnings.push_back(warning.as_string());
   const Tree* methods = result.find("methods");
   if (methods == nullptr) throw InputError({file, 0, 0}, "has no methods; remove it, so that it is made again");
   std::vector<SweepRow> rows;
@@ -179,6 +181,51 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
+  struct Walks {
+    std::string title;
+    std::set<std::string> all, failed, warned;
+    std::string first_failure, first_warning;
+  };
+  std::vector<Walks> groups;
+  for (const SweepRow& row : rows) {
+    std::string title = row.scenario;
+    for (const std::string& part : {row.variant, row.start})
+      if (!part.empty()) title += ", " + part;
+    auto walks = std::find_if(groups.begin(), groups.end(), [&](const Walks& one) { return one.title == title; });
+    if (walks == groups.end()) walks = groups.insert(groups.end(), Walks{title, {}, {}, {}, {}, {}});
+    walks->all.insert(row.seed);
+    if (row.verdict == "failed" && walks->failed.insert(row.seed).second && walks->first_failure.empty())
+      walks->first_failure = row.failure;
+    if (!row.warnings.empty() && walks->warned.insert(row.seed).second && walks->first_warning.empty())
+      walks->first_warning = row.warnings.front();
+  }
+  std::vector<std::string> notes;
+  const auto note = [&](const Walks& walks, std::size_t count, const char* what, const std::string& first) {
+    if (count == 0) return;
+    notes.push_back(walks.title + ": " + std::to_string(count) + " of " + std::to_string(walks.all.size()) +
+                    (walks.all.size() == 1 ? " walk " : " walks ") + what + (count == 1 ? "" : ", the first") + ": " +
+                    first);
+  };
+  for (const Walks& walks : groups) {
+    note(walks, walks.failed.size(), "failed", walks.first_failure);
+    note(walks, walks.warned.size(), "with a warning", walks.first_warning);
+  }
+  return notes;
+}
+
+std::string refused_in(const std::vector<SweepRow>& rows) {
+  std::set<std::string> keys, refused;
+  std::string first;
+  for (const SweepRow& row : rows) {
+    keys.insert(row.key);
+    if (row.failure.starts_with(refused_mark) && refused.insert(row.key).second && first.empty())
+      first = row.key + ": " + row.failure.substr(refused_mark.size());
+  }
+  if (refused.empty()) return "";
+  return std::to_string(refused.size()) + " of " + std::to_string(keys.size()) + " runs cannot be made; " + first;
 }
 
 std::optional<double> error_of(const SweepRow& row) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,16 @@ struct SweepRow {
   std::string failure;                        ///< why the scenario failed, or else a localization
   std::vector<std::optional<double>> values;  ///< by score::metrics()
   std::string key = {};                       ///< of the run's files
+  std::vector<std::string> warnings = {};     ///< of its walk
 };
+
+/// Begins the failure of a run whose scenario is no input that can be run.
+inline constexpr std::string_view refused_mark = "refused: ";
+
+/// Of the walks that failed or have warnings: a line for each scenario, variant and start, with the first reason.
+[[nodiscard]] std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows);
+/// How many runs were refused and why the first was; empty where none was.
+[[nodiscard]] std::string refused_in(const std::vector<SweepRow>& rows);
 
 /// Of the position, m: APE of a localization, aligned ATE of SLAM.
 [[nodiscard]] std::optional<double> error_of(const SweepRow& row);

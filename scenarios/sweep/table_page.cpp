@@ -197,7 +197,17 @@ std::string worst_card(const SweepPage& page, const SweepRow& row) {
               : "<code class=\"command\">" + svg::escape(command) + "</code> " + copy_button(command)) +
          "</p><p class=\"facts\">The command makes the run again, the same to the last bit, with its report and its "
          "replay page in pages/" +
-         svg::escape(row.key) + ". Call it from the folder of the sweep's file.</p></section>";
+         svg::escape(row.key) +
+         ". Call it from the folder of the sweep's file, with -o and the folder of this page where that is not "
+         "sweeps/" +
+         svg::escape(page.name) + ".</p></section>";
+}
+
+std::string notes_card(const std::vector<std::string>& notes) {
+  if (notes.empty()) return "";
+  std::string out = "<section class=\"card\"><h2>Walks that failed or have warnings</h2><ul>";
+  for (const std::string& note : notes) out += "<li>" + svg::escape(note) + "</li>\n";
+  return out + "</ul></section>\n";
 }
 
 std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>& rows) {
@@ -250,6 +260,7 @@ late to hold an answer for 5 s and 1 m. Wrong: single answers at a wrong pose, o
 when the scans left one pose, median. Converged at: metres until the answer of a success, median over the identifiable
 runs, the others counted as never. Error: of the position, rms, median of all runs that have one. Click a heading to sort by it.</p></section>
 )html";
+  out += notes_card(walk_notes(rows));
   if (!order.empty()) out += worst_card(page, *order.front()) + runs_table(page, order);
   return out + "</main><script>" + std::string(sort_script()) + std::string(copy_script()) +
          "</script></body></html>\n";

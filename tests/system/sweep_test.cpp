@@ -257,6 +257,36 @@ TEST(Sweep, BadInputIsOneLineAndLeavesNothing) {
   }
 }
 
+/// One scenario that cannot be walked takes nothing from the others, and is told each time.
+TEST(Sweep, OneScenarioThatIsRefusedLeavesTheOthersTheirTable) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  const std::string walk = "scenario: 1\nbuilding: short.plan.yaml\nmethods: [odometry]\n";
+  write_file(folder / "good.yaml", walk + "name: good\nstart: {room: left}\nduration_s: 2\n");
+  write_file(folder / "bad.yaml", walk + "name: bad\nstart: {room: attic}\nduration_s: 2\n");
+  write_file(folder / "sweep.yaml", "sweep: 1\nscenarios: [bad.yaml, good.yaml]\nseeds: 2\n");
+  const auto sweep = [&] { return plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"}); };
+  const Outcome first = sweep();
+  EXPECT_EQ(first.code, 2);
+  EXPECT_NE(first.err.find("sweep.yaml: 2 of 4 runs cannot be made; bad-1: "), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("attic"), std::string::npos) << first.err;
+  EXPECT_NE(
+      first.err.find("warning: good: 2 of 2 walks with a warning, the first: the walk ended when its time was up"),
+      std::string::npos)
+      << first.err;
+  for (const char* table : tables) EXPECT_TRUE(fs::exists(folder / ("out/" + std::string(table)))) << table;
+  const std::string rows = read_file(folder / "out/runs.csv");
+  EXPECT_NE(rows.find("good,,,1,odometry,complete,"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("bad,,,1,odometry,failed,,,,refused: "), std::string::npos) << rows;
+  EXPECT_NE(read_file(folder / "out/table.html").find("bad: 2 of 2 walks failed, the first: refused: "),
+            std::string::npos);
+  const Outcome again = sweep();
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(read_file(folder / "out/runs.csv"), rows);
+}
+
 TEST(Sweep, ReplacesNoTablesOfAnother) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
   const Folder folder;

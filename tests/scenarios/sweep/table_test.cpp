@@ -156,6 +156,31 @@ TEST(SweepTable, SaysWhyARunFailed) {
   EXPECT_NE(runs_csv({rows_of(lost, "x").at(0)}).find(",late,,true,,depleted,"), std::string::npos);
 }
 
+TEST(SweepTable, NamesWalksThatFailedOrHaveWarnings) {
+  const auto walk = [](const std::string& variant, const std::string& seed, const std::string& failure,
+                       const std::vector<std::string>& warnings) {
+    Tree result = Tree::map().set("scenario", "a").set("variant", variant).set("seed", seed);
+    if (!failure.empty()) result.set("failure", failure);
+    Tree list = Tree::list();
+    for (const std::string& warning : warnings) list.push(warning);
+    const Tree of_method = Tree::map().set("verdict", failure.empty() ? "complete" : "failed");
+    result.set("warnings", list).set("methods", Tree::map().set("first", of_method).set("second", of_method));
+    std::vector<SweepRow> rows = rows_of(result, "x");
+    for (SweepRow& row : rows) row.key = "a-" + variant + "-" + seed;
+    return rows;
+  };
+  std::vector<SweepRow> all;
+  for (const auto& rows : {walk("v", "1", "", {"time was up", "no walls"}), walk("v", "2", "", {"time was up at 3 s"}),
+                           walk("v", "3", "fell", {}), walk("w", "1", "refused: too narrow", {}),
+                           walk("w", "2", "refused: too wide", {}), walk("x", "1", "", {})})
+    all.insert(all.end(), rows.begin(), rows.end());
+  EXPECT_EQ(walk_notes(all), (std::vector<std::string>{"a, v: 1 of 3 walks failed: fell",
+                                                       "a, v: 2 of 3 walks with a warning, the first: time was up",
+                                                       "a, w: 2 of 2 walks failed, the first: refused: too narrow"}));
+  EXPECT_EQ(refused_in(all), "2 of 6 runs cannot be made; a-w-1: too narrow");
+  EXPECT_EQ(refused_in(walk("v", "3", "fell", {})), "");
+}
+
 TEST(SweepTable, AResultWithoutMethodsIsRefused) {
   EXPECT_THROW((void)rows_of(Tree::map().set("scenario", "a"), "x.json"), InputError);
 }
