@@ -7,6 +7,7 @@
 
 #include "bim/errors.h"
 #include "bim/geometry/best_rotation.h"
+#include "bim/geometry/symmetric.h"
 
 namespace plumbline::scenarios::score {
 
@@ -75,6 +76,29 @@ Pose umeyama(const std::vector<PosePair>& pairs) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const PosePair& pair : pairs) covariance += (pair.X_WR.t - mean_W) * (pair.X_FR.t - mean_F).transpose();
   const Eigen::Quaterniond q_WF = Eigen::Quaterniond(best_rotation(covariance)).normalized();
+  return {q_WF, mean_W - q_WF * mean_F};
+}
+
+Pose place_map(const std::vector<PosePair>& pairs) {
+  constexpr double free_below_m = 0.5;  // rms distance from the line or point; the sway of a gait is far less. Assumed
+  const Pose X_WF = umeyama(pairs);
+  const Eigen::Vector3d mean_F = mean(pairs, &PosePair::X_FR), mean_W = X_WF * mean_F;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(), attitudes = Eigen::Matrix3d::Zero();
+  for (const PosePair& pair : pairs) {
+    const Eigen::Vector3d off = pair.X_WR.t - mean_W;
+    spread += off * off.transpose() / static_cast<double>(pairs.size());
+    attitudes += pair.X_WR.rotation() * (X_WF * pair.X_FR).rotation().transpose();
+  }
+  const auto axes = symmetric_eigen(spread);
+  if (axes.values[1] >= free_below_m * free_below_m) return X_WF;
+  Eigen::Matrix3d turn = best_rotation(attitudes);
+  if (axes.values[2] >= free_below_m * free_below_m) {
+    const Eigen::Vector3d u = axes.vectors.col(2);
+    const Eigen::Vector3d twist(attitudes(2, 1) - attitudes(1, 2), attitudes(0, 2) - attitudes(2, 0),
+                                attitudes(1, 0) - attitudes(0, 1));
+    turn = Eigen::AngleAxisd(std::atan2(u.dot(twist), attitudes.trace() - u.dot(attitudes * u)), u).toRotationMatrix();
+  }
+  const Eigen::Quaterniond q_WF = (Eigen::Quaterniond(turn) * X_WF.q).normalized();
   return {q_WF, mean_W - q_WF * mean_F};
 }
 
@@ -151,9 +175,9 @@ std::optional<TrajectoryScore> score_trajectory(const Truth& truth, const std::v
     score.drift_10m_deg_per_m = drift->rotation_mean_rad / rules.drift_distance_m * 180.0 / std::numbers::pi;
   }
   const std::vector<PosePair> last = associate(truth, final_F, rules);
-  score.X_WF_final = umeyama(last.empty() ? causal : last);
+  score.X_WF_final = place_map(last.empty() ? causal : last);
   const bool covers = static_cast<double>(last.size()) >= rules.min_coverage * static_cast<double>(truth.scans.size());
-  if (!last.empty() && covers) score.ate_final_rmse_m = position_rmse(last, score.X_WF_final);
+  if (!last.empty() && covers) score.ate_final_rmse_m = position_rmse(last, umeyama(last));
   return score;
 }
 

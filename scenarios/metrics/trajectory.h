@@ -49,6 +49,9 @@ struct PosePair {
 /// sense [umeyama1991]. At least one pair; where positions leave rotations free (a single
 /// point, a straight line), some minimiser.
 [[nodiscard]] Pose umeyama(const std::vector<PosePair>& pairs);
+/// X_WF as umeyama(), for what is placed beside the trajectory, as maps and rooms are: where the positions lie along a
+/// line they leave the rotation about it free, and where they lie in one place all rotations; attitudes fix these.
+[[nodiscard]] Pose place_map(const std::vector<PosePair>& pairs);
 /// X_WF by the first pair alone.
 [[nodiscard]] Pose place_by_first(const std::vector<PosePair>& pairs);
 
@@ -84,7 +87,7 @@ struct TrajectoryScore {
   std::optional<double> rpe_1m_rmse_m;
   std::optional<double> drift_10m_percent;    ///< mean error of translation over 10 m walked
   std::optional<double> drift_10m_deg_per_m;  ///< mean error of rotation over 10 m walked
-  Pose X_WF_final;                            ///< alignment of the final trajectory; places the map, planes and rooms
+  Pose X_WF_final;                            ///< place_map() of the final trajectory: of its map, planes and rooms
 };
 
 /// Absent when no scan has a pose. final_F may be empty.

@@ -29,14 +29,16 @@ std::vector<ReportSample> samples_of(const bim::Plan& plan, const MethodRecord& 
   std::vector<ReportSample> samples;
   if (pairs.empty()) return samples;
   const Pose X_WF = method.localization ? Pose() : score::umeyama(pairs);
+  const Pose shown_X_WF = method.localization ? Pose() : score::place_map(pairs);
   const std::vector<std::optional<double>> relative =
       score::errors_over(pairs, truth.walked(), score::TrajectoryRules{}.rpe_distance_m);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const score::PosePair& pair = pairs[i];
-    const Pose X_WR = X_WF * pair.X_FR;
-    samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, (X_WR.t - pair.X_WR.t).norm()));
+    const Pose X_WR = shown_X_WF * pair.X_FR;
+    const Eigen::Vector3d error_W = X_WF * pair.X_FR.t - pair.X_WR.t;
+    samples.push_back(sample(plan, truth.scans[pair.scan], X_WR, error_W.norm()));
     samples.back().lost = said_lost(method, truth.scans[pair.scan]);
-    samples.back().error_W = X_WR.t - pair.X_WR.t;
+    samples.back().error_W = error_W;
     samples.back().yaw_error = (pair.X_WR.inverse() * X_WR).yaw();
     samples.back().relative_m = relative[i];
   }

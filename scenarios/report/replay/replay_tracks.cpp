@@ -58,10 +58,10 @@ Tree track_of(const MethodRecord& method, const score::Truth& truth, const Eigen
   Track track(origin);
   if (pairs.empty()) return track.take();
   const Pose X_WF = method.localization ? Pose() : score::umeyama(pairs);
+  const Pose shown_X_WF = method.localization ? Pose() : score::place_map(pairs);
   for (const score::PosePair& pair : pairs) {
-    const Pose X_WR = X_WF * pair.X_FR;
     const slam::Nanoseconds stamp = truth.scans[pair.scan];
-    track.add(stamp, X_WR, (X_WR.t - pair.X_WR.t).norm(), said_lost(method, stamp));
+    track.add(stamp, shown_X_WF * pair.X_FR, (X_WF * pair.X_FR.t - pair.X_WR.t).norm(), said_lost(method, stamp));
   }
   return track.take();
 }

@@ -95,6 +95,34 @@ TEST(Trajectory, AlignmentOfAStraightLineAndOfOnePointIsFinite) {
   EXPECT_LT(position_rmse(one, umeyama(one)), 1e-12);
 }
 
+/// Noise of a millimetre would turn the map of a straight corridor upside down.
+TEST(Trajectory, AttitudesFixWhatPositionsLeaveFree) {
+  const Stream stream(11, "bim.generate");
+  for (std::uint64_t trial = 0; trial < 50; ++trial) {
+    const Pose X_FW = exp_se3(random_twist(stream, 7000 + trial, 20.0, 3.0));
+    const double step_m = trial % 2 == 0 ? 0.1 : 0.0;  // a corridor, or a robot that stands
+    const Pose start = exp_se3(random_twist(stream, 8000 + trial, 5.0, 3.0));
+    Truth truth;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const auto stamp = static_cast<slam::Nanoseconds>(i) * scan_ns;
+      const Pose sway = exp_se3(random_twist(stream, 1000 * (trial + 10) + i, 0.02, 0.02));
+      truth.poses_W.push_back(
+          {stamp, start * Pose::from_xyz_yaw({step_m * static_cast<double>(i), 0.0, 0.0}, 0.0) * sway});
+      truth.scans.push_back(stamp);
+    }
+    auto poses = moved(truth, X_FW);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      for (std::uint32_t k = 0; k < 3; ++k) poses[i].X_FR.t[k] += 0.01 * stream.gauss(500 * trial + i, k);
+    const auto pairs = associate(truth, poses, {});
+    // 1 cm of noise in 200 positions along 20 m turns their line by far less than this; attitudes have none.
+    EXPECT_LT(log_so3((place_map(pairs) * X_FW).q).norm(), 0.01) << trial;
+    EXPECT_GE(position_rmse(pairs, place_map(pairs)), position_rmse(pairs, umeyama(pairs)));
+  }
+  const Truth wide = random_truth(4, 400);
+  const auto pairs = associate(wide, moved(wide, exp_se3(random_twist(stream, 1, 20.0, 3.0))), {});
+  EXPECT_TRUE(place_map(pairs).rotation() == umeyama(pairs).rotation()) << "its positions leave nothing free";
+}
+
 TEST(Trajectory, HandComputed) {
   Truth truth;
   std::vector<slam::StampedPose> poses;

@@ -224,6 +224,27 @@ void Interpreter::sort_all() {
   });
 }
 
+/// Names the rooms that walls enclose by the spaces that have a place in them and no body.
+void Interpreter::name_by_outlines(std::vector<Room>& rooms) const {
+  constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::space || product.space_use != SpaceUse::room || product.name.empty()) continue;
+    Polygon2 outline;
+    double z_m = 0.0;
+    for (const Eigen::Vector3d& p : product.outline) {
+      const Eigen::Vector3d p_W = product.X_WP * p;
+      if (!p_W.allFinite()) break;
+      outline.emplace_back(p_W.head<2>());
+      z_m = p_W.z();
+    }
+    if (outline.size() < 3 || !is_simple(outline)) continue;
+    if (signed_area(outline) < 0.0) std::reverse(outline.begin(), outline.end());
+    const Eigen::Vector2d inner = interior_point(outline);
+    for (Room& room : rooms)
+      if (std::abs(room.z0_m - z_m) < over_floor_m && room.contains(inner)) room.name = product.name;
+  }
+}
+
 void Interpreter::add_missing_rooms() {
   const std::vector<Room> given = building_.rooms;
   const bool any_space = std::any_of(model_.products.begin(), model_.products.end(), [](const StepProduct& product) {
@@ -253,6 +274,7 @@ void Interpreter::add_missing_rooms() {
         return other.z0_m < room.z1_m && other.z1_m > room.z0_m && other.contains(inner);
       });
     });
+    name_by_outlines(rooms);
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
     const auto is_front = [&](const Obstacle& obstacle) {
       return stands_here(obstacle) && obstacle.kind == "curtain_panel";

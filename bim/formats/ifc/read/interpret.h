@@ -95,6 +95,7 @@ class Interpreter {
   [[nodiscard]] Building only_building_of(int storey) const;
   void set_heights();
   void add_missing_rooms();
+  void name_by_outlines(std::vector<Room>& rooms) const;
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);

@@ -265,7 +265,7 @@ class Reader {
       product.building_name = building->m_Name ? utf8(building->m_Name->m_value) : std::string();
     }
     read_material(*source, model.unit_m, product);
-    if (source->m_Representation) read_geometry(source, product);
+    if (source->m_Representation) read_geometry(source, model.unit_m, product);
     if (bounded_ && !within_reach(product)) {
       ++model.out_of_reach;
       fail(product.step_id, product.type + " is larger than 10 km or further than 100000 km");
@@ -273,10 +273,11 @@ class Reader {
     return product;
   }
 
-  void read_geometry(const std::shared_ptr<IfcProduct>& source, StepProduct& product) {
+  void read_geometry(const std::shared_ptr<IfcProduct>& source, double unit_m, StepProduct& product) {
     product.has_body = has_body(*source, product.kind);
     if (product.kind == StepClass::wall) try_axis(*source, product);
     if (needs_geometry(source, product.kind)) read_body(*source, validator_, geometry_, product);
+    if (product.kind == StepClass::space && product.body.empty()) try_outline(*source, unit_m, product);
   }
 
   /// A wall without its Axis is located by its body.
@@ -286,6 +287,16 @@ class Reader {
     } catch (const InputError& error) {
       product.axis_W.clear();
       product.diagnostics.push_back(std::string("its axis is left out: ") + error.what());
+    }
+  }
+
+  /// A space without an outline has no name for the room that its walls enclose.
+  void try_outline(const IfcProduct& source, double unit_m, StepProduct& product) {
+    try {
+      read_outline(source, unit_m, validator_, geometry_, product);
+    } catch (const InputError& error) {
+      product.outline.clear();
+      product.diagnostics.push_back(std::string("its outline is left out: ") + error.what());
     }
   }
 

@@ -52,6 +52,7 @@ struct StepProduct {
   std::string material;                  ///< of the thickest layer
   std::vector<Eigen::Vector3d> axis_W;   ///< points of the Axis representation
   std::vector<Shape> body;               ///< items of the Body in its own frame (openings: Body or Reference)
+  std::vector<Eigen::Vector3d> outline;  ///< space without a body: corners of its FootPrint, or its Box, in its frame
   std::vector<std::string> diagnostics;  ///< messages of the geometry reader
 };
 

@@ -126,6 +126,18 @@ class Sketch {
   std::string slab(const Polygon2& outline, double z0, double z1) {
     return element("IFCSLAB", shape(prism(outline, z0, z1)), "$,.FLOOR.");
   }
+  /// Without a body: `items` are of its FootPrint or Box.
+  std::string bare_space(const std::string& name, const std::string& identifier, const std::string& items) {
+    const std::string at = add("IFCLOCALPLACEMENT(" + place_ + "," + origin_ + ")");
+    const std::string shape = add("IFCPRODUCTDEFINITIONSHAPE($,$,(" +
+                                  add("IFCSHAPEREPRESENTATION(" + context_ + ",'" + identifier + "','" + identifier +
+                                      "',(" + items + "))") +
+                                  "))");
+    const std::string id =
+        rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + shape + ",$,.ELEMENT.,.INTERNAL.,$");
+    rooted("IFCRELAGGREGATES", "$,$," + storey_ + ",(" + id + ")");
+    return id;
+  }
   std::string opening(const std::string& host, const std::string& items) {
     const std::string at = add("IFCLOCALPLACEMENT(" + place_ + "," + origin_ + ")");
     const std::string id = rooted("IFCOPENINGELEMENT", "'o',$,$," + at + "," + shape(items) + ",$,$");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "bim/geometry/polygon_boolean.h"
@@ -126,6 +127,22 @@ TEST(Spaces, WithoutABodyAreNotSaidToBeMissing) {
     EXPECT_EQ(said->text, with_spaces ? "no space of the file has a body that can be read; walls enclose this"
                                       : "the file has no spaces; walls enclose this");
   }
+}
+
+/// Some exporters give spaces as outlines or boxes alone.
+TEST(Spaces, WithoutABodyNameTheRoomThatTheyLieIn) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.bare_space("east", "FootPrint", sketch.polyline({{4.3, 0.3}, {4.3, 5.7}, {7.7, 5.7}, {7.7, 0.3}}));
+  sketch.bare_space("west", "Box", sketch.add("IFCBOUNDINGBOX(" + sketch.point(0.2, 0.2, 0) + ",3.5,5.5,2.8)"));
+  sketch.bare_space("above", "FootPrint", sketch.polyline({{0.3, 0.3}}));
+  sketch.bare_space("afar", "FootPrint", sketch.polyline({{14.3, 0.3}, {17.7, 0.3}, {17.7, 5.7}}));
+  const Building building = read(sketch);
+  std::map<std::string, double> middles;
+  for (const Room& room : building.rooms) middles[room.name] = interior_point(room.polygon).x();
+  ASSERT_EQ(middles.size(), 2u);
+  EXPECT_LT(middles.at("west"), 4.0);
+  EXPECT_GT(middles.at("east"), 4.0);
 }
 
 TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
