@@ -82,6 +82,22 @@ std::string sure_and_wrong(const score::MethodScore& method, const std::vector<s
   return method.name + ": CONVERGED " + what + "; no gate asks for it: " + std::string(metric) + "<=0";
 }
 
+/// What the columns do not show of a method's answers: how often it disclaimed them, and rooms that are none.
+std::string beside_columns(const score::MethodScore& method) {
+  std::string text;
+  const double lost = method.tracking ? method.tracking->lost_share : 0.0;
+  if (lost > 0.0) {
+    char share[48];
+    std::snprintf(share, sizeof(share), "LOST at %.2g %% of the scans", 100.0 * lost);
+    text = share;
+  }
+  const int found = method.rooms ? method.rooms->found : 0, matched = method.rooms ? method.rooms->matched : 0;
+  if (found > matched)
+    text += (text.empty() ? "" : "; ") + std::to_string(found - matched) + " of the " + std::to_string(found) +
+            " rooms that it found match none of the building";
+  return text.empty() ? "" : method.name + ": " + text;
+}
+
 /// A line for the first failed gate of each method, or for each method that is bad and not judged.
 std::string looks(const std::string& page, const score::RunScore& score) {
   std::string text;
@@ -131,6 +147,8 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
     for (const Column& column : columns) text += cell(method, column, start_s);
     text += method.error.empty() ? "\n" : "  " + printable(method.error) + "\n";
   }
+  for (const score::MethodScore& method : score.methods)
+    if (const std::string beside = beside_columns(method); !beside.empty()) text += "note: " + printable(beside) + "\n";
   for (const Unjudged& method : unjudged(judging_blocks(score)))
     text += (method.crashed() ? "FAILED: " : "not judged: ") + printable(method.method + ": " + method.what) + "\n";
   for (const score::MethodScore& method : score.methods)

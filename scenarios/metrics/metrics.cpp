@@ -61,7 +61,8 @@ std::vector<MetricRow> make_rows() {
        field(&S::tracking, &TrackingScore::degenerate_share), true},
       {"map_rmse_m", "m", Better::lower,
        "RMS distance of the map's points to the building as built, each capped at 0.5 m; the final trajectory's "
-       "alignment places the map",
+       "alignment places the map, with its attitudes where the path is straight; a map of a localization stands as it "
+       "is",
        field(&S::map, &MapScore::rmse_m)},
       {"map_capped_share", "", Better::lower, "share of the map's points at the cap of 0.5 m",
        field(&S::map, &MapScore::capped_share)},
@@ -102,7 +103,8 @@ std::vector<MetricRow> make_rows() {
       {"loops.right", "", Better::higher, "of these, with a relative pose within 0.2 m and 3° of the true one",
        field(&S::loops, &LoopScore::right)},
       {"loops.revisits", "", Better::neither,
-       "segments of the path, at most 10 m long, that pass within 1 m of a point visited at least 10 m of path earlier",
+       "segments of the path, 1 to 10 m long, that pass within 1 m, on the plan and in height, of a point visited at "
+       "least 10 m of path earlier",
        field(&S::loops, &LoopScore::revisits)},
       {"loops.precision", "", Better::higher, "right loop closures per loop closure; absent where there is none",
        field(&S::loops, &LoopScore::precision)},
@@ -110,7 +112,9 @@ std::vector<MetricRow> make_rows() {
        field(&S::loops, &LoopScore::recall)},
       {"segmentation.precision", "", Better::higher,
        "of the planes of single scans with at least 30 returns, the share that has 80 % of its returns on one surface "
-       "of the building [hoover1996]",
+       "of the building [hoover1996]; returns farther than 10 cm from all surfaces, as of mirror images, and those "
+       "near "
+       "two do not count",
        field(&S::segmentation, &SegmentationScore::precision)},
       {"segmentation.recall", "", Better::higher,
        "of the returns on surfaces with at least 30 returns in a scan, the share in a plane of that surface",
@@ -147,7 +151,7 @@ std::vector<MetricRow> make_rows() {
        "`ape_rmse_m` means an aliased pose was tracked",
        field(&S::localization, &L::aliased_error_rmse_m)},
       {"localization.true_mass", "", Better::higher,
-       "share of the last hypotheses' mass within 0.5 m and 10° of the true pose",
+       "sum of the masses of the last hypotheses within 0.5 m and 10° of the true pose",
        field(&S::localization, &L::true_mass)},
       {"localization.nees", "", Better::neither,
        "mean normalised estimation error squared of (x, y, yaw) while converged and right; 3 where the covariance is "
@@ -164,11 +168,13 @@ std::vector<MetricRow> make_rows() {
        "time of the failure on the run's clock; `replay --until` stops there",
        field(&S::localization, &L::failure_at_s)},
       {"localization.kidnap_wrong_s", "s", Better::lower,
-       "longest time that a wrong pose was CONVERGED after a kidnapping", field(&S::localization, &L::kidnap_wrong_s)},
+       "longest time that a wrong pose was CONVERGED after the robot was set down",
+       field(&S::localization, &L::kidnap_wrong_s)},
       {"localization.kidnap_found_s", "s", Better::lower,
-       "time from the kidnapping to the pose that is CONVERGED and right to the end",
+       "time from when the robot is set down to the pose that is CONVERGED and right to the end, for at least 5 s and "
+       "1 m",
        field(&S::localization, &L::kidnap_found_s)},
-      {"localization.kidnap_found_m", "m", Better::lower, "distance walked from the kidnapping to that pose",
+      {"localization.kidnap_found_m", "m", Better::lower, "distance walked from there to that pose",
        field(&S::localization, &L::kidnap_found_m)},
   };
 }

@@ -210,7 +210,16 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   if (visited && recall)
     text += "; recognised " + svg::number(*recall * *visited, 0) + " of the " + svg::number(*visited, 0) +
             " rooms it was in";
-  return text + "." + wrong_stretch(input, method);
+  const auto found = number_of(rooms, "found"), matched = number_of(rooms, "matched");
+  if (found && matched && *found > *matched)
+    text += "; " + svg::number(*found - *matched, 0) + " that it claims match none";
+  const std::string wrong = wrong_stretch(input, method);
+  const auto lost = std::count_if(method.samples.begin(), method.samples.end(), [](const auto& s) { return s.lost; });
+  text += "." + wrong;
+  if (lost > 0)
+    text += " It reported LOST at " + std::to_string(lost) + " of " + std::to_string(method.samples.size()) + " scans" +
+            (wrong.empty() ? "." : ", which do not count here.");
+  return text;
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::string open_them(const std::vector<std::string>& doors) {
   std::string list;
   for (const std::string& door : doors) list += (list.empty() ? "'" : ", '") + door + "'";
   return (doors.size() == 1 ? "door " + list + " on the way is" : "doors " + list + " on the way are") +
-         " closed; open with `leaf: open` in the plan or `doors: open` in the scenario";
+         " closed; `doors: open` in the scenario opens all, `leaf: open` in the plan one of `doors: as_designed`";
 }
 
 }  // namespace plumbline::scenarios

@@ -311,6 +311,7 @@ class Planner {
     const auto at = [&](int i) -> Eigen::Vector2d { return from.p_W + i * step * direction; };
     int i = 0;
     while (room(index).contains(at(i + 1)) && space.free(at(i + 1))) ++i;
+    while (i > 0 && space_.path({from.storey, at(i)}, from).empty()) --i;
     return {from.storey, at(i)};
   }
 

@@ -2,6 +2,7 @@
 #include "slam/odometry/start_trial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -24,6 +25,18 @@ double matched_by(const std::vector<Registration>& results) {
   for (std::size_t k = results.size() - judged_scans; k < results.size(); ++k)
     sum += results[k].accepted ? results[k].matched : 0.0;
   return sum / static_cast<double>(judged_scans);
+}
+
+/// Whether surfaces hold the way along a direction of M in every scan that is judged. Where they leave it open, as in a
+/// wide hall, any velocity goes on by itself, and what matches more or less says nothing of it.
+bool tell_way_along(const std::vector<Registration>& results, const Eigen::Vector3d& direction_M) {
+  constexpr double most_open = 0.5;  // share of the direction: at 45 degrees to it
+  return std::all_of(results.end() - judged_scans, results.end(), [&](const Registration& result) {
+    double open = 0.0;
+    for (const Vector6d& increment : result.unobserved)
+      open += std::pow((result.X_MR.q * increment.head<3>()).dot(direction_M), 2);
+    return open <= most_open;
+  });
 }
 
 std::vector<Vector6d> horizontal_movements(const Eigen::Vector3d& up) {
@@ -95,6 +108,7 @@ std::optional<StartTrial::Tracked> StartTrial::better_start() const {
       results.push_back(tracked.tracker.track(scans_[k], tracked.scan));
     }
     const double matched = matched_by(results);
+    if (!tell_way_along(results, mps.normalized())) continue;
     if (matched <= most || (results.back().X_MR.t - results_.back().X_MR.t).norm() < same_place_m) continue;
     most = matched;
     tracked.result = std::move(results.back());

@@ -81,6 +81,7 @@ struct Registration {
   int degenerate_directions = 0;  ///< that surfaces leave open: edges, odometry or the start decided there
   int unobserved_directions = 0;  ///< of those, the ones in which neither edges nor odometry tell anything ...
   std::vector<Vector6d> unobserved;          ///< ... as unit increments of X_MR, before a correlation
+  bool by_rough_points = false;              ///< rough points told of those what they can
   std::optional<Eigen::Vector3d> moving_R;   ///< a degenerate translation: what faces it moves, see moving_direction()
   std::optional<CorrelatedStep> correlated;  ///< where they were told by an earlier keyframe
   Vector6d sweep_twist = Vector6d::Zero();   ///< by which the scan's deskewing was corrected, see sweep_twist()

@@ -239,8 +239,7 @@ Registration VgicpOdometry::with_rough_points(Registration found, const Pose& ex
                                               const std::optional<PosePrior>& prior,
                                               const OdometrySample& odometry) const {
   if (found.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return found;
-  const std::vector<double> reaches_m = rough_reaches(found.X_MR);
-  return with_rough_points_within(reaches_m, std::move(found), expected, prior, odometry);
+  return with_rough_points_within(rough_reaches(found.X_MR), std::move(found), expected, prior, odometry);
 }
 
 Registration VgicpOdometry::with_rough_points_within(std::span<const double> reaches_m, Registration found,
@@ -252,6 +251,7 @@ Registration VgicpOdometry::with_rough_points_within(std::span<const double> rea
     found = align(
         scan_.registered, maps_.front(), found.X_MR, prior, scan_.fine, edges_near(found.X_MR), odometry.sigma_m,
         expected, [&](const Pose& X_MR) { return linearize(matches, X_MR, within_m / 3.0); }, found.moving_R);
+    found.by_rough_points = !matches.empty();
   }
   return found;
 }

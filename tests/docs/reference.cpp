@@ -27,7 +27,8 @@ std::string metrics_page() {
 
 `results.json` holds these values for each method, and a scenario's gates may bound them. A metric that does not apply,
 or cannot be computed, is absent. A dot in a name stands for a block. [Localizability](../methods/localizability.md) says
-when scans and plan determine the pose.
+when scans and plan determine the pose. Distances walked are horizontal, between the places of scans, so that stairs and the sway of
+a gait add nothing; `score --reference` knows no horizontal and takes them in space.
 
 )md";
   MarkdownTable table({"metric", "unit", "better", "says"});
@@ -132,7 +133,7 @@ in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and m
 
 - `<method>.hypotheses.jsonl`, a line for each scan: `stamp_ns`, `state`, `hypotheses` and, of some scans, `particles`, each
   `[x, y, yaw, weight]` in W. A hypothesis has `mass` (share, 0 to 1), `room`, `pose` (X_WR: x, y, z, qx, qy, qz, qw),
-  `covariance` (3 x 3 of x, y, yaw, row by row, m and rad) and `walls`. A wall has `faces`, ids of the plan's faces, and
+  `covariance` (3 x 3 of x, y, yaw, row by row, m and rad) and, where walls were matched, `walls`. A wall has `faces`, ids of the plan's faces, and
   `p0` and `p1`, the ends of the observed patch in R, m.
 - `<method>.estimate.json`: `frame` (`map` or `world`); `planes`: `n` and `d` with n.p + d = 0, ends `p0` and `p1`,
   heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`. Its `loops`

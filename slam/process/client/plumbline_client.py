@@ -25,6 +25,7 @@ import numpy as np
 MAGIC = 0x31424C50
 PROTOCOL = 2
 HELLO, STEP, FINISH, HELLO_OK, OUTPUT, ESTIMATE, LOG, FAIL = 1, 2, 3, 0x81, 0x82, 0x83, 0x84, 0x8F
+STATES = ("SEARCHING", "AMBIGUOUS", "CONVERGED", "LOST")
 SEARCHING, AMBIGUOUS, CONVERGED, LOST = range(4)
 
 _IMU = np.dtype([("stamp_ns", "<i8"), ("angular_velocity", "<f8", 3), ("linear_acceleration", "<f8", 3)])
@@ -130,7 +131,8 @@ class Answer:
     """More than a pose: state, and of a localization hypotheses as (mass, 4x4 in W, 3x3 covariance of x, y, yaw)."""
 
     def __init__(self, pose=None, state=CONVERGED, hypotheses=(), particles=()):
-        self.pose, self.state, self.hypotheses, self.particles = pose, state, hypotheses, particles
+        self.state = STATES.index(state) if state in STATES else state  # by its name, or a constant of above
+        self.pose, self.hypotheses, self.particles = pose, hypotheses, particles
 
     def pack(self, stamp_ns):
         if self.state not in range(4):

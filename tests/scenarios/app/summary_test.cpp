@@ -98,6 +98,20 @@ TEST(Summary, GivesTheTimeOfConvergenceOnTheRunsClock) {
       << summarise(judged.run, judged.score);
 }
 
+TEST(Summary, SaysWhatItsColumnsDoNotShow) {
+  Judged judged;
+  EXPECT_EQ(summarise(judged.run, judged.score).find("note: "), std::string::npos);
+  judged.score.methods[0].tracking.emplace().lost_share = 0.953;
+  score::RoomScore& rooms = judged.score.methods[1].rooms.emplace();
+  rooms.found = 5;
+  rooms.matched = 3;
+  const std::string text = summarise(judged.run, judged.score);
+  EXPECT_NE(text.find("\nnote: judged: LOST at 95 % of the scans\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nnote: un judged: 2 of the 5 rooms that it found match none of the building\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(NextSteps, OfAFallLeadToTheEnd) {
   Judged judged;
   judged.run.record.failure = "the robot fell";

@@ -238,6 +238,7 @@ TEST(Report, DrawsNoErrorWhereAMethodSaysThatItIsLost) {
   const std::string page = render_report(input);
   EXPECT_NE(page.find("curve disclaimed layer-m"), std::string::npos);
   EXPECT_EQ(page.find(">5000<"), std::string::npos);  // the scale is that of answers
+  EXPECT_NE(page.find(" It reported LOST at 51 of 101 scans"), std::string::npos);
   EXPECT_EQ(occurrences(page, "<polyline"), occurrences(render_report(sample()), "<polyline"));
 }
 
