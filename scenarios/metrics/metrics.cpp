@@ -82,7 +82,8 @@ std::vector<MetricRow> make_rows() {
       {"rooms.recall", "", Better::higher, "share of the visited rooms that were found",
        field(&S::rooms, &RoomScore::recall)},
       {"walls.precision", "", Better::higher,
-       "share of the found walls that match faces of the building: within 3°, 0.10 m and over half of their length",
+       "share of the found walls that match faces of the building's walls, within 3°, 0.10 m and over half of their "
+       "length; sides of columns, stairs and furniture match none",
        field(&S::walls, &WallScore::precision)},
       {"walls.recall", "", Better::higher, "share of the faces seen by the LiDAR that a found wall matches",
        field(&S::walls, &WallScore::recall)},

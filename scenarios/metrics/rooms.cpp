@@ -14,6 +14,7 @@ struct Candidate {
   double overlap = 0.0;
   int node = 0;  ///< index into Estimate::rooms
   int room = 0;  ///< index into Plan::rooms
+  bool visited = false;
 };
 
 Polygon2 place(const Polygon2& polygon_F, const Pose& X_WF) {
@@ -96,6 +97,7 @@ std::vector<int> visited_rooms(const bim::Plan& as_built, const Truth& truth, co
 
 RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bim::Plan& as_built,
                       const WallScore& walls, const Truth& truth, const StructureRules& rules) {
+  const std::vector<int> visited = visited_rooms(as_built, truth, rules);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < estimate.rooms.size(); ++i) {
     const slam::RoomNode& node = estimate.rooms[i];
@@ -106,12 +108,14 @@ RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bi
       const double overlap = iou(outline_W, room.polygon);
       const bool corridor =
           node.kind == slam::RoomKind::two_wall && corridor_matches(estimate, node, X_WF, as_built, room, walls, rules);
+      const bool was_there = std::find(visited.begin(), visited.end(), room.id) != visited.end();
       if (overlap >= rules.room_iou || corridor)
-        candidates.push_back({overlap, static_cast<int>(i), static_cast<int>(j)});
+        candidates.push_back({overlap, static_cast<int>(i), static_cast<int>(j), was_there});
     }
   }
+  // Of equal outlines one above the other, which a room without walls does not tell apart, the one the robot was in.
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(b.overlap, a.node, a.room) < std::tie(a.overlap, b.node, b.room);
+    return std::tie(b.overlap, b.visited, a.node, a.room) < std::tie(a.overlap, a.visited, b.node, b.room);
   });
 
   RoomScore score;
@@ -125,7 +129,6 @@ RoomScore score_rooms(const slam::Estimate& estimate, const Pose& X_WF, const bi
     taken[room] = true;
     ++score.matched;
   }
-  const std::vector<int> visited = visited_rooms(as_built, truth, rules);
   const auto found = std::count_if(visited.begin(), visited.end(), [&](int id) {
     return std::find(score.room_of_node.begin(), score.room_of_node.end(), id) != score.room_of_node.end();
   });

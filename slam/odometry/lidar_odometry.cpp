@@ -11,6 +11,7 @@
 #include "bim/errors.h"
 #include "slam/odometry/continuous_odometry.h"
 #include "slam/odometry/motion_prediction.h"
+#include "slam/odometry/slipping.h"
 #include "slam/odometry/unmeasured_way.h"
 
 namespace plumbline::slam {
@@ -82,7 +83,8 @@ class GuardedScanMatcher final : public LidarOdometry {
       sample.step = continued_pose(scan.stamp);
       sample.sigma_m = continued_sigma(scan.stamp - stamp_);
     }
-    Registration result = matcher_.match(scan, sample, health_.usual_matched());
+    std::optional<Registration> slipping = match_beside(scan, sample);
+    Registration result = slipping ? *std::move(slipping) : matcher_.match(scan, sample, health_.usual_matched());
     result.odometry_valid = sample.valid;
     result = keep(scan.stamp, std::move(result), sample);
     if (sample.valid)
@@ -133,6 +135,21 @@ class GuardedScanMatcher final : public LidarOdometry {
   [[nodiscard]] Pose continued_step(Nanoseconds stamp) const override { return continued_over(stamp - stamp_); }
 
  private:
+  /// The scan without odometry, where that slips; `sample` has no valid step then.
+  [[nodiscard]] std::optional<Registration> match_beside(const DeskewedScan& scan, OdometrySample& sample) {
+    const std::optional<ExpectedMotion> motion = continued(scan.stamp);
+    if (!sample.valid || !matcher_.ready() || !motion || !slip_.doubts(sample.step, *motion)) {
+      slip_.trust();
+      return std::nullopt;
+    }
+    const Vector6d twist = log_se3(sample.step.inverse() * motion->step) / seconds(scan.stamp - stamp_);
+    const OdometrySample none = without_step(sample, motion->step, continued_sigma(scan.stamp - stamp_));
+    Registration alone = matcher_.match(corrected_by(scan, twist), none, health_.usual_matched());
+    if (!slip_.shows_slip(alone, X_MR_, sample.step, *motion, health_.usual_matched())) return std::nullopt;
+    alone.sweep_twist += twist;
+    sample = none;
+    return alone;
+  }
   /// From X_MR_, as if the motion before went on.
   [[nodiscard]] std::optional<ExpectedMotion> continued(Nanoseconds stamp) const {
     const std::optional<Pose> step = motion_.over(stamp - moved_stamp_);
@@ -293,6 +310,7 @@ class GuardedScanMatcher final : public LidarOdometry {
   Matcher matcher_;
   OdometryHealth health_;
   UnmeasuredWay unmeasured_;
+  SlipWatch slip_;
   ContinuousOdometry increments_;
   bool started_ = false;  ///< a scan came ...
   bool had_map_ = false;  ///< ... and one that could begin a map

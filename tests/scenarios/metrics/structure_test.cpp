@@ -231,6 +231,27 @@ TEST(Rooms, InventedAndMissedRoomsCount) {
   EXPECT_NEAR(*rooms.recall, 1.0 / 3.0, 1e-12);
 }
 
+// Equal rooms one above the other; the found one has no walls that would tell its height.
+TEST(Rooms, OfEqualOnesTheVisitedIsFound) {
+  bim::Plan plan = small_plan();
+  const auto ground = static_cast<std::ptrdiff_t>(plan.rooms.size());
+  for (std::ptrdiff_t i = 0; i < ground; ++i) {
+    bim::PlanRoom above = plan.rooms[static_cast<std::size_t>(i)];
+    above.id += static_cast<int>(ground);
+    above.z0 += 3.0;
+    above.z1 += 3.0;
+    plan.rooms.push_back(above);
+  }
+  slam::Estimate estimate;
+  estimate.rooms.emplace_back().polygon_F = plan.rooms[0].polygon;
+  Truth truth = stays({{{2, 2}, 3}});
+  for (slam::StampedPose& pose : truth.poses_W) pose.X_FR.t.z() += 3.0;
+  const RoomScore upper = score_rooms(estimate, Pose(), plan, {}, truth);
+  EXPECT_EQ(upper.room_of_node, std::vector<int>{static_cast<int>(ground)});
+  EXPECT_EQ(*upper.recall, 1.0);
+  EXPECT_EQ(score_rooms(estimate, Pose(), plan, {}, stays({{{2, 2}, 3}})).room_of_node, std::vector<int>{0});
+}
+
 TEST(Rooms, OverlapMustBeHalfOfTheUnion) {
   const bim::Plan plan = small_plan();
   const auto matched = [&](double height) {
