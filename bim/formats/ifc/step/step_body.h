@@ -16,7 +16,8 @@ namespace plumbline::bim {
 /// or one without a name whose type is that of a solid. Throws InputError where its entities lack what IFC demands.
 void read_body(const IfcProduct& source, StepValidator& validator, StepGeometry& geometry, StepProduct& product);
 
-/// Fills the outline of a space: the first ring of its FootPrint, or else the rectangle of its bounding box on the plan.
+/// Fills the outline of a space: the first ring of its FootPrint, or else the rectangle of its bounding box on the
+/// plan.
 void read_outline(const IfcProduct& source, double unit_m, StepValidator& validator, StepGeometry& geometry,
                   StepProduct& product);
 
