@@ -129,12 +129,11 @@ class Sketch {
   /// Without a body: `items` are of its FootPrint or Box.
   std::string bare_space(const std::string& name, const std::string& identifier, const std::string& items) {
     const std::string at = add("IFCLOCALPLACEMENT(" + place_ + "," + origin_ + ")");
-    const std::string shape = add("IFCPRODUCTDEFINITIONSHAPE($,$,(" +
-                                  add("IFCSHAPEREPRESENTATION(" + context_ + ",'" + identifier + "','" + identifier +
-                                      "',(" + items + "))") +
-                                  "))");
-    const std::string id =
-        rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + shape + ",$,.ELEMENT.,.INTERNAL.,$");
+    const std::string shape =
+        add("IFCPRODUCTDEFINITIONSHAPE($,$,(" +
+            add("IFCSHAPEREPRESENTATION(" + context_ + ",'" + identifier + "','" + identifier + "',(" + items + "))") +
+            "))");
+    const std::string id = rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + shape + ",$,.ELEMENT.,.INTERNAL.,$");
     rooted("IFCRELAGGREGATES", "$,$," + storey_ + ",(" + id + ")");
     return id;
   }
