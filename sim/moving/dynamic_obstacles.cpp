@@ -92,7 +92,22 @@ void DynamicObstacles::walk(Person& person, double distance_m) {
   }
 }
 
+void DynamicObstacles::begin_aside(Person& person, const Eigen::Vector3d& robot_W) {
+  constexpr double step_m = 0.1;
+  double way_m = 0.0;
+  for (std::size_t k = 0; k + 1 < person.config.points_W.size(); ++k) way_m += segment_length(person.config, k);
+  const Person first = person;
+  for (double walked_m = 0.0; walked_m < way_m; walked_m += step_m) {
+    if (!is_near(person.config, position(person), robot_W)) return;
+    walk(person, step_m);
+  }
+  person = first;
+}
+
 void DynamicObstacles::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W) {
+  if (!begun_)
+    for (Person& person : people_) begin_aside(person, robot_W);
+  begun_ = true;
   const double elapsed_s = seconds(stamp - stamp_);
   stamp_ = stamp;
   for (Person& person : people_) {

@@ -10,7 +10,8 @@
 
 namespace plumbline::sim {
 
-/// A person who walks a polyline to its end and back, again and again, and stands still while the robot is near.
+/// A person who walks a polyline to its end and back, again and again, and stands still while the robot is near. Who
+/// would begin there begins farther along, where there is such a place: nobody stands in the robot.
 struct PersonConfig {
   std::vector<Eigen::Vector3d> points_W;  ///< on the floor, at least one
   double speed_mps = 0.8;
@@ -63,11 +64,13 @@ class DynamicObstacles {
     bim::MovingBody body;
   };
   static void walk(Person& person, double distance_m);
+  static void begin_aside(Person& person, const Eigen::Vector3d& robot_W);
   static Eigen::Vector3d position(const Person& person);
 
   std::vector<Person> people_;
   std::vector<Door> doors_;
   slam::Nanoseconds stamp_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace plumbline::sim

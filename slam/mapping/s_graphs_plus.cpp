@@ -220,7 +220,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const KeyframeVertex& last = graph_.keyframes.back();
   const Pose step = last.X_OR.inverse() * X_OR;
   const Pose X_MR = last.X_MR * step;
-  const Matrix6d information = step_information(odometry, step.t.norm());
+  const Matrix6d information = ties_nothing() ? tied_information() : step_information(odometry, step.t.norm());
   level_agreement_.add_step(step, information.llt().solve(Matrix6d::Identity()));
   level_agreement_.drop_contradicted(seen);
   drop_tilted_planes(seen, X_MR, config_.floors);
@@ -231,6 +231,16 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   map_began_ = false;
   odometry_valid_ = true;
   graph_.keyframes.push_back({stamp, X_MR, X_OR, storey_of(graph_, X_MR, seen, config_.floors)});
+}
+
+// A first keyframe without planes, as of a LiDAR that is covered, holds nothing but the frame. A step from there that
+// is not known would let the whole graph turn about it.
+bool SGraphsPlus::ties_nothing() const { return graph_.keyframes.size() == 1 && graph_.plane_factors.empty(); }
+
+Matrix6d SGraphsPlus::tied_information() const {
+  const double m = config_.odometry_sigma_m, rad = config_.odometry_sigma_rad;
+  const Vector6d sigmas = (Vector6d() << m, m, m, rad, rad, rad).finished();
+  return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
 // Where surfels do not constrain the motion, as along a corridor, VGICP's step is that of the odometry, with its

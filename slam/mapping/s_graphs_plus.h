@@ -169,6 +169,8 @@ class SGraphsPlus : public Method {
   void add_keyframe_vertex(Nanoseconds stamp, const Registration& odometry, std::vector<PlaneObservation>& seen);
   /// Of a keyframe's step from the last one over `way_m`.
   [[nodiscard]] Matrix6d step_information(const Registration& odometry, double way_m) const;
+  [[nodiscard]] bool ties_nothing() const;
+  [[nodiscard]] Matrix6d tied_information() const;
   void update_rooms(int storey, std::span<const PlaneNode> walls);
   [[nodiscard]] bool find_duplicates_in_rooms(std::span<const PlaneNode> walls, std::span<const PlaneNode> seen);
   void close_loop(const DeskewedScan& scan);

@@ -59,6 +59,20 @@ TEST(DynamicObstacles, PeopleStandStillWhileTheRobotIsNear) {
   EXPECT_NEAR(place(things).x(), 3.0 - std::sqrt(0.75) + 1.0, 0.01);
 }
 
+TEST(DynamicObstacles, NobodyBeginsInTheRobot) {
+  DynamicObstacles things(
+      {person({{0, 0, 0}, {2, 0, 0}, {2, 3, 0}}), person({{0, 0, 0}}), person({{5, 0, 0}, {6, 0, 0}})}, {}, 0);
+  const Eigen::Vector3d robot_W(0.2, 0.0, 0.4);
+  things.step(0, robot_W);
+  const auto apart_m = [&](std::size_t who) {
+    return (things.bodies()[who].stations.front().position_W - robot_W).head<2>().norm();
+  };
+  EXPECT_NEAR(apart_m(0), DynamicObstacles::keep_away_m, 0.11) << "it begins a step farther than near";
+  EXPECT_GE(apart_m(0), DynamicObstacles::keep_away_m);
+  EXPECT_NEAR(apart_m(1), 0.2, 1e-9) << "it has no other place";
+  EXPECT_NEAR(apart_m(2), 4.8, 1e-9);
+}
+
 TEST(DynamicObstacles, PeopleOfOnePlaceOrOfNoWayStand) {
   DynamicObstacles things({person({{1, 2, 0}}), person({{1, 2, 0}, {1, 2, 0}})}, {}, 0);
   slam::Nanoseconds t = 0;

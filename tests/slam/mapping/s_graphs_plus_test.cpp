@@ -115,6 +115,23 @@ TEST(SGraphsPlus, AnswersForEveryScanAndNamesItsStages) {
   }
 }
 
+/// Somebody stands before the LiDAR when the recording begins: the first keyframe has no planes, and the way from it is
+/// not known. The map must not turn about it.
+TEST(SGraphsPlus, ACoveredStartHoldsTheMap) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = 8.0;
+  synthetic::Recording recording = synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+  for (std::size_t k = 0; k < 15; ++k)
+    std::fill(recording.scans[k].range_m.begin(), recording.scans[k].range_m.end(), 0.0);
+  const Walked r = run(recording, {}, false);
+  ASSERT_GT(r.graph.keyframes.size(), 2U);
+  const PoseFactor& first = r.graph.pose_factors.front();
+  EXPECT_GT(first.information(3, 3), 1e4);
+  // How the map lies about the first keyframe is what dead reckoning said: it does not change with the graph.
+  const Pose step = r.graph.keyframes[0].X_MR.inverse() * r.graph.keyframes[1].X_MR;
+  EXPECT_LT(log_so3((first.X_FT.inverse() * step).q).norm(), 0.01);
+}
+
 TEST(SGraphsPlus, SurvivesTheMapsOriginAtARoomsCentre) {
   synthetic::WalkConfig walk;
   walk.duration_s = 6.0;
