@@ -177,7 +177,7 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong(answering("np.diag([1, 1, -1, 1])"), "scales, shears or mirrors");
   wrong(answering("np.eye(4) * np.nan"), "must be finite");
   wrong(answering("no_such_name"), "NameError: name 'no_such_name' is not defined (m.py, line 3)");
-  wrong(answering("plumbline_client.Answer(np.eye(4), state='LOST')"), "or LOST, not 'LOST'");
+  wrong(answering("plumbline_client.Answer(np.eye(4), state='GONE')"), "or LOST, not 'GONE'");
   wrong(answering("recording.robot_pose(np.eye(3))"), "not of shape (3, 3) (m.py, line 3)");
   wrong(answering("plumbline_client.Answer(None, 1, [(0.5, np.eye(4))])"), "a hypothesis must be (mass, 4x4, 3x3");
   wrong(answering("recording.robot_pose(np.linalg.inv(recording.X_RL) @ np.linalg.inv(scan.odometry_pose()) @ "
