@@ -32,6 +32,17 @@ bool is_near(const PersonConfig& config, const Eigen::Vector3d& person_W, const 
   return std::abs(apart.z()) < config.height_m && apart.head<2>().norm() < DynamicObstacles::keep_away_m;
 }
 
+/// Where the person stands whom the robot would walk through.
+Eigen::Vector3d beside(const PersonConfig& config, Eigen::Vector3d person_W, const Eigen::Vector3d& robot_W) {
+  if (!is_near(config, person_W, robot_W)) return person_W;
+  const Eigen::Vector2d apart = (person_W - robot_W).head<2>();
+  const double least_m = config.radius_m + DynamicObstacles::aside_m, distance_m = apart.norm();
+  if (distance_m >= least_m) return person_W;
+  const Eigen::Vector2d way = distance_m > 0.0 ? Eigen::Vector2d(apart / distance_m) : Eigen::Vector2d::UnitX();
+  person_W.head<2>() = robot_W.head<2>() + least_m * way;
+  return person_W;
+}
+
 void forget(std::vector<bim::BodyStation>& stations, double time_s) {
   const auto after = std::upper_bound(stations.begin(), stations.end(), time_s,
                                       [](double t, const bim::BodyStation& s) { return t < s.time_s; });
@@ -112,7 +123,7 @@ void DynamicObstacles::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robo
   stamp_ = stamp;
   for (Person& person : people_) {
     if (!is_near(person.config, position(person), robot_W)) walk(person, person.config.speed_mps * elapsed_s);
-    person.body.stations.push_back({seconds(stamp), position(person), 0.0});
+    person.body.stations.push_back({seconds(stamp), beside(person.config, position(person), robot_W), 0.0});
   }
   for (Door& door : doors_) {
     const double move = elapsed_s / door.config.travel_s;

@@ -10,8 +10,9 @@
 
 namespace plumbline::sim {
 
-/// A person who walks a polyline to its end and back, again and again, and stands still while the robot is near. Who
-/// would begin there begins farther along, where there is such a place: nobody stands in the robot.
+/// A person who walks a polyline to its end and back, again and again, stands still while the robot is near, and steps
+/// aside as far as it must where the robot walks on. Who would begin near the robot begins farther along, where there is
+/// such a place.
 struct PersonConfig {
   std::vector<Eigen::Vector3d> points_W;  ///< on the floor, at least one
   double speed_mps = 0.8;
@@ -38,6 +39,7 @@ struct SwingDoorConfig {
 class DynamicObstacles {
  public:
   static constexpr double keep_away_m = 1.0;  ///< people this near to the robot on their floor stand still
+  static constexpr double aside_m = 0.35;     ///< from the robot's middle to a person who stepped aside
 
   /// Throws InternalError on a person without points.
   DynamicObstacles(std::vector<PersonConfig> people, std::vector<SwingDoorConfig> doors, int first_element);
