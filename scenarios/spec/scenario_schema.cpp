@@ -27,8 +27,9 @@ itself.
   another walk. The run directory's `scenario.yaml` holds the start and the route that were drawn. `anywhere` also draws
   doorways and the ends of stairs, not their landings; there the robot faces its first goal. The rooms that a route
   names can be reached from a drawn place, where there is such a place.
-- Only the LiDAR sees `people` and `moving_doors`. The robot does not feel them, and people step aside; no plan holds them, and what the LiDAR
-  sees of them does not count as surface of the building. A moving door is open while the robot is near it.
+- Only the LiDAR sees `people` and `moving_doors`. The robot does not feel them, and people step aside. No plan holds
+  them, and what the LiDAR sees of them does not count as surface of the building. A moving door is open while the robot
+  is near it.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
   and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, not a method.
 - `lidar: {preset: harsh}` and `faults: {preset: harsh}` add calibration and environment errors: range errors, dust,
