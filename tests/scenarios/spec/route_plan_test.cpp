@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/load/load.h"
@@ -151,24 +153,44 @@ TEST(RoutePlan, AShuttleTurnsBeforeADoorInTheEndWall) {
   EXPECT_GT(farthest, 5.0);
 }
 
-TEST(RoutePlan, AShuttleNeedsRoom) {
+/// One room with walls all round.
+bim::Building cell_of(const Polygon2& outline) {
   bim::Building cell;
   cell.storeys.push_back({"ground", "ground", 0.0, 3.0, 0});
   bim::Room room;
   room.id = room.name = "cell";
   room.storey = 0;
-  room.polygon = {{0.0, 0.0}, {1.1, 0.0}, {1.1, 1.1}, {0.0, 1.1}};
+  room.polygon = outline;
   cell.rooms.push_back(room);
-  const Polygon2& outline = cell.rooms.front().polygon;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
     bim::Wall wall;
     wall.id = std::to_string(i);
     wall.storey = 0;
     wall.a = outline[i];
-    wall.b = outline[(i + 1) % 4];
+    wall.b = outline[(i + 1) % outline.size()];
     wall.offset_m = -0.2;
     cell.walls.push_back(wall);
   }
+  return cell;
+}
+
+// The last place where the robot fits could be one from which no path leads back: "cannot be reached".
+TEST(RoutePlan, AShuttleTurnsWhereAPathLeadsBack) {
+  Route route;
+  route.shuttle = "cell";
+  route.times = 2;
+  for (const int corners : {5, 7, 12, 40}) {
+    Polygon2 outline;
+    for (int k = 0; k < corners; ++k)
+      outline.emplace_back(8.0 * std::cos(2.0 * std::numbers::pi * k / corners),
+                           8.0 * std::sin(2.0 * std::numbers::pi * k / corners));
+    const bim::Building cell = cell_of(outline);
+    ASSERT_NO_THROW({ EXPECT_GT(plan_route(cell, in("cell"), route, {}).length_m, 30.0) << corners; }) << corners;
+  }
+}
+
+TEST(RoutePlan, AShuttleNeedsRoom) {
+  const bim::Building cell = cell_of({{0.0, 0.0}, {1.1, 0.0}, {1.1, 1.1}, {0.0, 1.1}});
   Route route;
   route.shuttle = "cell";
   EXPECT_NE(error_of(cell, in("cell"), route).find("room 'cell' is too small to walk to and fro in"), std::string::npos)
