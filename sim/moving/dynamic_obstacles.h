@@ -11,8 +11,8 @@
 namespace plumbline::sim {
 
 /// A person who walks a polyline to its end and back, again and again, stands still while the robot is near, and steps
-/// aside as far as it must where the robot walks on. Who would begin near the robot begins farther along, where there is
-/// such a place.
+/// aside as far as it must where the robot walks on. Who would begin near the robot begins farther along, where there
+/// is such a place.
 struct PersonConfig {
   std::vector<Eigen::Vector3d> points_W;  ///< on the floor, at least one
   double speed_mps = 0.8;
