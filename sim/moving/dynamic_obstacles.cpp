@@ -32,17 +32,6 @@ bool is_near(const PersonConfig& config, const Eigen::Vector3d& person_W, const 
   return std::abs(apart.z()) < config.height_m && apart.head<2>().norm() < DynamicObstacles::keep_away_m;
 }
 
-/// Where the person stands whom the robot would walk through.
-Eigen::Vector3d beside(const PersonConfig& config, Eigen::Vector3d person_W, const Eigen::Vector3d& robot_W) {
-  if (!is_near(config, person_W, robot_W)) return person_W;
-  const Eigen::Vector2d apart = (person_W - robot_W).head<2>();
-  const double least_m = config.radius_m + DynamicObstacles::aside_m, distance_m = apart.norm();
-  if (distance_m >= least_m) return person_W;
-  const Eigen::Vector2d way = distance_m > 0.0 ? Eigen::Vector2d(apart / distance_m) : Eigen::Vector2d::UnitX();
-  person_W.head<2>() = robot_W.head<2>() + least_m * way;
-  return person_W;
-}
-
 void forget(std::vector<bim::BodyStation>& stations, double time_s) {
   const auto after = std::upper_bound(stations.begin(), stations.end(), time_s,
                                       [](double t, const bim::BodyStation& s) { return t < s.time_s; });
@@ -115,15 +104,32 @@ void DynamicObstacles::begin_aside(Person& person, const Eigen::Vector3d& robot_
   person = first;
 }
 
+// Back to its own way as soon as the robot lets it, out of the robot's way as far as that comes.
+void DynamicObstacles::step_aside(Person& person, double elapsed_s, const Eigen::Vector3d& robot_W) {
+  constexpr double back_mps = 1.6;  // twice a walk
+  const Eigen::Vector3d left = position(person) - person.at_W;
+  const double reach_m = std::max(back_mps, 2.0 * person.config.speed_mps) * elapsed_s;
+  person.at_W += left.norm() > reach_m ? Eigen::Vector3d(reach_m / left.norm() * left) : left;
+  const Eigen::Vector2d apart = (person.at_W - robot_W).head<2>();
+  const double least_m = person.config.radius_m + aside_m, distance_m = apart.norm();
+  if (distance_m >= least_m || !is_near(person.config, person.at_W, robot_W)) return;
+  const Eigen::Vector2d way = distance_m > 0.0 ? Eigen::Vector2d(apart / distance_m) : Eigen::Vector2d::UnitX();
+  person.at_W.head<2>() = robot_W.head<2>() + least_m * way;
+}
+
 void DynamicObstacles::step(slam::Nanoseconds stamp, const Eigen::Vector3d& robot_W) {
-  if (!begun_)
-    for (Person& person : people_) begin_aside(person, robot_W);
+  for (Person& person : people_) {
+    if (begun_) break;
+    begin_aside(person, robot_W);
+    person.at_W = position(person);
+  }
   begun_ = true;
   const double elapsed_s = seconds(stamp - stamp_);
   stamp_ = stamp;
   for (Person& person : people_) {
     if (!is_near(person.config, position(person), robot_W)) walk(person, person.config.speed_mps * elapsed_s);
-    person.body.stations.push_back({seconds(stamp), beside(person.config, position(person), robot_W), 0.0});
+    step_aside(person, elapsed_s, robot_W);
+    person.body.stations.push_back({seconds(stamp), person.at_W, 0.0});
   }
   for (Door& door : doors_) {
     const double move = elapsed_s / door.config.travel_s;

@@ -58,6 +58,7 @@ class DynamicObstacles {
     std::size_t segment = 0;  ///< walks from points[segment] to points[segment + 1], or back
     double walked_m = 0.0;    ///< along that segment, from points[segment]
     bool back = false;
+    Eigen::Vector3d at_W = Eigen::Vector3d::Zero();  ///< on that way, or aside of it
     bim::MovingBody body;
   };
   struct Door {
@@ -67,6 +68,7 @@ class DynamicObstacles {
   };
   static void walk(Person& person, double distance_m);
   static void begin_aside(Person& person, const Eigen::Vector3d& robot_W);
+  static void step_aside(Person& person, double elapsed_s, const Eigen::Vector3d& robot_W);
   static Eigen::Vector3d position(const Person& person);
 
   std::vector<Person> people_;

@@ -235,7 +235,9 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
 
 // A first keyframe without planes, as of a LiDAR that is covered, holds nothing but the frame. A step from there that
 // is not known would let the whole graph turn about it.
-bool SGraphsPlus::ties_nothing() const { return graph_.keyframes.size() == 1 && graph_.plane_factors.empty(); }
+bool SGraphsPlus::ties_nothing() const {
+  return graph_.keyframes.size() == 1 && graph_.plane_factors.empty() && dead_reckoning_variance_.has_value();
+}
 
 Matrix6d SGraphsPlus::tied_information() const {
   const double m = config_.odometry_sigma_m, rad = config_.odometry_sigma_rad;
