@@ -142,6 +142,7 @@ int sweep(const SweepArguments& options, slam::MethodTable table) {
   const SweepTables tables = run_with_progress(sweep, run);
   if (!run.shard) return tell(tables, options.file, run.out);
   print(tables.text + "results: " + printable(run.out) + "/results\n");
+  if (!tables.refused.empty()) throw InputError({options.file, 0, 0}, tables.refused);
   return 0;
 }
 

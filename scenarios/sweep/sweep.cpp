@@ -8,9 +8,9 @@
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
-#include "scenarios/host/folder_lock.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/sweep/children.h"
+#include "scenarios/sweep/sweep_folder.h"
 #include "scenarios/sweep/table_page.h"
 
 namespace plumbline::scenarios {
@@ -18,65 +18,6 @@ namespace plumbline::scenarios {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The folder of a sweep; one process at a time writes there.
-class SweepFolder {
- public:
-  explicit SweepFolder(const std::string& path) : path_(path) {
-    const auto known = [](const std::string& name) {
-      const auto rows = files_of(DirectoryKind::sweep);
-      return name == ".work" || name == ".lock" ||
-             std::any_of(rows.begin(), rows.end(), [&](const FileRow& row) { return row.name == name; });
-    };
-    std::error_code error;
-    if (fs::exists(path) && !fs::is_directory(path))
-      throw InputError({path, 0, 0}, "is a file; --out must name a directory");
-    if (fs::exists(path))
-      for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
-        if (!known(name) && it->path().extension() != ".tmp")
-          throw InputError({path, 0, 0}, "holds '" + name + "', which no sweep wrote; name another --out");
-      }
-    made_ = make_folders(results(), path);
-    take_lock();
-    fs::remove_all(work(), error);
-    fs::create_directory(work(), error);
-    if (error) throw EnvironmentError(path + ": cannot be written: " + error.message());
-  }
-  ~SweepFolder() {
-    std::error_code error;
-    fs::remove_all(work(), error);
-    lock_.reset();
-    remove_made();
-  }
-  SweepFolder(const SweepFolder&) = delete;
-  SweepFolder& operator=(const SweepFolder&) = delete;
-
-  [[nodiscard]] std::string results() const { return path_ + "/results"; }
-  [[nodiscard]] std::string work() const { return path_ + "/.work"; }
-  [[nodiscard]] std::string page(const std::string& key) const { return path_ + "/pages/" + key; }
-  [[nodiscard]] std::string result(const SweepRun& run) const { return results() + "/" + run.key + ".json"; }
-
- private:
-  void take_lock() {
-    try {
-      lock_ = FolderLock::take(path_ + "/.lock", path_);
-    } catch (const EnvironmentError&) {
-      remove_made();
-      throw;
-    }
-    if (!lock_) throw InputError({path_, 0, 0}, "another sweep is writing here; name another --out");
-  }
-  /// What is empty of it, as where the first run was refused.
-  void remove_made() const {
-    std::error_code error;
-    for (auto it = made_.rbegin(); it != made_.rend(); ++it) fs::remove(*it, error);
-  }
-
-  std::string path_;
-  std::optional<FolderLock> lock_;
-  std::vector<std::string> made_;  ///< folders that were not there, outermost first
-};
 
 /// Another sweep's tables would be replaced. One that has grown has some of its runs there.
 void check_no_other_sweep(const Sweep& sweep, const std::string& out) {
@@ -96,6 +37,13 @@ std::string without_place(const std::string& last_line, const std::string& folde
   if (!last_line.starts_with(folder)) return last_line;
   const std::size_t end = last_line.find(": ");
   return end == std::string::npos ? last_line : last_line.substr(end + 2);
+}
+
+/// Whether the result there says that the run was refused: what was in the way may be gone, as with a newer program.
+bool is_refused(const std::string& path) {
+  const Tree result = read_json(read_text_file(path), path);
+  const Tree* failure = result.is_map() ? result.find("failure") : nullptr;
+  return failure != nullptr && failure->as_string().starts_with(refused_mark);
 }
 
 bool is_made(const std::string& path, const SweepRun& run) {
@@ -195,7 +143,7 @@ std::vector<Group> missing_groups(const std::vector<const SweepRun*>& runs, cons
   std::vector<Group> groups;
   std::map<std::string, std::size_t> group_of;
   for (const SweepRun* run : runs) {
-    if (is_made(folder.result(*run), *run)) continue;
+    if (is_made(folder.result(*run), *run) && !is_refused(folder.result(*run))) continue;
     const auto [it, fresh] = group_of.try_emplace(run->simulation_digest, groups.size());
     if (!fresh && groups[it->second].size() >= most_at_once) it->second = groups.size();
     if (it->second == groups.size()) groups.emplace_back();
@@ -204,15 +152,14 @@ std::vector<Group> missing_groups(const std::vector<const SweepRun*>& runs, cons
   return groups;
 }
 
-void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, const SweepOptions& options,
-                  const SweepFolder& folder) {
-  const std::vector<Group> groups = missing_groups(runs, folder);
-  std::size_t done = runs.size();
+/// Makes the runs of each group together; gives those that were refused. Of several runs of one walk only one may be at
+/// fault: they are made again each for itself.
+std::vector<Refusal> make_groups(const Sweep& sweep, const std::vector<Group>& groups, int jobs,
+                                 const SweepFolder& folder, const std::function<void(std::size_t)>& made) {
   std::vector<Refusal> refusals;
-  for (const Group& group : groups) done -= group.size();
-  if (done > 0 && options.resumed) options.resumed(done, runs.size());
+  std::vector<Group> singles;
   run_children(
-      groups.size(), options.jobs,
+      groups.size(), jobs,
       [&](std::size_t i) {
         std::vector<std::string> arguments = {"sweep", "--seed", std::to_string(groups[i].front()->seed), "--runs"};
         for (const SweepRun* run : groups[i]) {
@@ -223,16 +170,32 @@ void make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs, 
       },
       [&](std::size_t i, const ChildEnd& end) {
         constexpr int bad_input = 2;
+        const bool refused = end.code == bad_input;
         for (const SweepRun* run : groups[i]) {
-          if (end.code == bad_input)
-            refusals.push_back({run, without_place(end.last_line, folder.work())});
-          else
-            keep(sweep, folder, *run, end);
+          if (!refused) keep(sweep, folder, *run, end);
+          if (refused && groups[i].size() > 1) singles.push_back({run});
         }
-        done += groups[i].size();
-        if (options.progress) options.progress(done, runs.size());
+        if (refused && groups[i].size() > 1) return;
+        if (refused) refusals.push_back({groups[i].front(), without_place(end.last_line, folder.work())});
+        made(groups[i].size());
       });
+  if (singles.empty()) return refusals;
+  for (Refusal& refusal : make_groups(sweep, singles, jobs, folder, made)) refusals.push_back(std::move(refusal));
+  return refusals;
+}
+
+std::vector<Refusal> make_missing(const Sweep& sweep, const std::vector<const SweepRun*>& runs,
+                                  const SweepOptions& options, const SweepFolder& folder) {
+  const std::vector<Group> groups = missing_groups(runs, folder);
+  std::size_t done = runs.size();
+  for (const Group& group : groups) done -= group.size();
+  if (done > 0 && options.resumed) options.resumed(done, runs.size());
+  std::vector<Refusal> refusals = make_groups(sweep, groups, options.jobs, folder, [&](std::size_t count) {
+    done += count;
+    if (options.progress) options.progress(done, runs.size());
+  });
   keep_refusals(sweep, folder, refusals);
+  return refusals;
 }
 
 /// The runs whose pages are asked for.
@@ -245,7 +208,8 @@ constexpr std::string_view worst_run = "worst";
 
 const SweepRun& asked_run(const Sweep& sweep, const std::vector<SweepRow>& rows, const std::string& key) {
   const std::vector<const SweepRow*> order = worst_first(rows);
-  const std::string wanted = key == worst_run && !order.empty() ? order.front()->key : key;
+  const auto worst = std::find_if(order.begin(), order.end(), [](const SweepRow* row) { return !is_refused(*row); });
+  const std::string wanted = key == worst_run && worst != order.end() ? (*worst)->key : key;
   const auto run =
       std::find_if(sweep.runs.begin(), sweep.runs.end(), [&](const SweepRun& one) { return one.key == wanted; });
   if (run == sweep.runs.end())
@@ -273,7 +237,8 @@ void make_pages(const Sweep& sweep, const std::vector<SweepRow>& rows, const Swe
             "--force", "--replay"};
       },
       [&](std::size_t i, const ChildEnd& end) {
-        constexpr int gate_failed = 1, scenario_failed = 4;
+        constexpr int gate_failed = 1, bad_input = 2, scenario_failed = 4;
+        if (end.code == bad_input) throw error_of({runs[i], without_place(end.last_line, folder.work())});
         if (end.code != 0 && end.code != gate_failed && end.code != scenario_failed)
           throw EnvironmentError("sweep: page of " + runs[i]->key + " ended with " + std::to_string(end.code) + ": " +
                                  end.last_line);
@@ -318,16 +283,20 @@ SweepTables write_tables(const Sweep& sweep, const SweepFolder& folder, const st
 
 /// The result of a run among those of shards; empty where there is none of this input.
 std::string find_result(const SweepRun& run, const std::vector<std::string>& folders) {
-  std::string found, from;
+  std::string found, from, refused;
   for (const std::string& folder : folders) {
     const std::string path = folder + "/results/" + run.key + ".json";
     if (!is_made(path, run)) continue;
+    if (is_refused(path)) {
+      refused = read_text_file(path);
+      continue;
+    }
     std::string text = read_text_file(path);
     if (!found.empty() && text != found) throw InputError({path, 0, 0}, "differs from that in " + from);
     found = std::move(text);
     from = folder;
   }
-  return found;
+  return found.empty() ? refused : found;
 }
 
 }  // namespace
@@ -340,8 +309,9 @@ SweepTables run_sweep(const Sweep& sweep, const SweepOptions& options) {
   check_no_other_sweep(sweep, options.out);
   const SweepFolder folder(options.out);
   const std::vector<const SweepRun*> runs = runs_of(sweep, options.shard);
+  std::vector<Refusal> refusals;
   try {
-    make_missing(sweep, runs, options, folder);
+    refusals = make_missing(sweep, runs, options, folder);
   } catch (const Interrupted& interrupted) {
     const auto done = std::count_if(runs.begin(), runs.end(),
                                     [&](const SweepRun* run) { return is_made(folder.result(*run), *run); });
@@ -352,7 +322,9 @@ SweepTables run_sweep(const Sweep& sweep, const SweepOptions& options) {
   return {"shard " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->of) + ": " +
               std::to_string(runs.size()) + " of " + std::to_string(sweep.runs.size()) + " runs are there\n",
           {},
-          {}};
+          refusals.empty() ? ""
+                           : std::to_string(refusals.size()) + " of them cannot be made; " + refusals.front().run->key +
+                                 ": " + refusals.front().reason};
 }
 
 SweepTables collect_sweep(const Sweep& sweep, const std::vector<std::string>& folders, const std::string& out) {

@@ -216,12 +216,14 @@ std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
   return notes;
 }
 
+bool is_refused(const SweepRow& row) { return row.failure.starts_with(refused_mark); }
+
 std::string refused_in(const std::vector<SweepRow>& rows) {
   std::set<std::string> keys, refused;
   std::string first;
   for (const SweepRow& row : rows) {
     keys.insert(row.key);
-    if (row.failure.starts_with(refused_mark) && refused.insert(row.key).second && first.empty())
+    if (is_refused(row) && refused.insert(row.key).second && first.empty())
       first = row.key + ": " + row.failure.substr(refused_mark.size());
   }
   if (refused.empty()) return "";

@@ -173,6 +173,7 @@ std::string copy_button(const std::string& command) {
 
 /// A link to the run's page, or what makes it.
 std::string page_of(const SweepPage& page, const SweepRow& row) {
+  if (is_refused(row)) return "cannot be made";
   if (page.pages.count(row.key) > 0)
     return "<a href=\"pages/" + svg::escape(row.key) + "/report.html\">report</a> <a href=\"pages/" +
            svg::escape(row.key) + "/replay.html\">replay</a>";
@@ -197,10 +198,7 @@ std::string worst_card(const SweepPage& page, const SweepRow& row) {
               : "<code class=\"command\">" + svg::escape(command) + "</code> " + copy_button(command)) +
          "</p><p class=\"facts\">The command makes the run again, the same to the last bit, with its report and its "
          "replay page in pages/" +
-         svg::escape(row.key) +
-         ". Call it from the folder of the sweep's file, with -o and the folder of this page where that is not "
-         "sweeps/" +
-         svg::escape(page.name) + ".</p></section>";
+         svg::escape(row.key) + ". Call it from the folder of the sweep's file.</p></section>";
 }
 
 std::string notes_card(const std::vector<std::string>& notes) {
@@ -261,7 +259,10 @@ when the scans left one pose, median. Converged at: metres until the answer of a
 runs, the others counted as never. Error: of the position, rms, median of all runs that have one. Click a heading to sort by it.</p></section>
 )html";
   out += notes_card(walk_notes(rows));
-  if (!order.empty()) out += worst_card(page, *order.front()) + runs_table(page, order);
+  // A run that cannot be made has no page.
+  const auto worst = std::find_if(order.begin(), order.end(), [](const SweepRow* row) { return !is_refused(*row); });
+  if (worst != order.end()) out += worst_card(page, **worst);
+  if (!order.empty()) out += runs_table(page, order);
   return out + "</main><script>" + std::string(sort_script()) + std::string(copy_script()) +
          "</script></body></html>\n";
 }

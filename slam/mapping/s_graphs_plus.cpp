@@ -213,6 +213,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const Pose& X_OR = odometry.X_MR;
   if (graph_.keyframes.empty()) {
     graph_.keyframes.push_back({stamp, Pose{level_by_planes(seen), Eigen::Vector3d::Zero()}, X_OR, 0});
+    first_began_map_ = odometry.began;
     level_agreement_.add_step({}, Matrix6d::Zero());
     level_agreement_.drop_contradicted(seen);
     return;
@@ -236,7 +237,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
 // A first keyframe without planes, as of a LiDAR that is covered, holds nothing but the frame. A step from there that
 // is not known would let the whole graph turn about it.
 bool SGraphsPlus::ties_nothing() const {
-  return graph_.keyframes.size() == 1 && graph_.plane_factors.empty() && dead_reckoning_variance_.has_value();
+  return graph_.keyframes.size() == 1 && !first_began_map_ && graph_.plane_factors.empty() && dead_reckoning_variance_;
 }
 
 Matrix6d SGraphsPlus::tied_information() const {

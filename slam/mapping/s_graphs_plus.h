@@ -202,6 +202,7 @@ class SGraphsPlus : public Method {
   std::optional<Vector6d>
       dead_reckoning_variance_;  ///< variances of the dead reckoning since the last keyframe that no scan took back
   bool map_began_ = false;       ///< since the last keyframe
+  bool first_began_map_ = true;  ///< the first keyframe; not one of a LiDAR that sees nothing
   bool odometry_valid_ = true;   ///< odometry is continuous since the last keyframe
   std::optional<int> first_displaced_keyframe_;  ///< since when the place of the map is not known
   double walked_m_ = 0.0;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "bim/errors.h"
 #include "slam/odometry/continuous_odometry.h"
@@ -44,23 +44,6 @@ ExpectedMotion expected_of(const OdometrySample& odometry) {
   constexpr double least_m = 0.01, per_m = 0.1, least_rad = 0.01, per_rad = 0.1;
   return {odometry.step, least_m + per_m * odometry.step.t.norm() + odometry.extrapolated_m,
           least_rad + per_rad * log_so3(odometry.step.q).norm() + odometry.extrapolated_rad};
-}
-
-/// A step but for what nothing measured of it, which is as expected: a match that slid there would go on sliding.
-Pose measured_part(const Registration& result, const Pose& step, const Pose& expected) {
-  if (result.unobserved.empty() || result.by_rough_points || result.correlated) return step;
-  constexpr double arm_m = 3.0;  // at which a rotation moves what is seen: of rooms. Assumed
-  const Vector6d scale = (Vector6d() << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(arm_m)).finished();
-  Vector6d off = scale.cwiseProduct(log_se3(expected.inverse() * step));
-  std::vector<Vector6d> open;
-  for (const Vector6d& unobserved : result.unobserved) {
-    Vector6d direction = scale.cwiseProduct(unobserved);
-    for (const Vector6d& other : open) direction -= other.dot(direction) * other;
-    if (direction.norm() < 1e-9) continue;
-    open.push_back(direction.normalized());
-    off -= open.back().dot(off) * open.back();
-  }
-  return expected * exp_se3(off.cwiseQuotient(scale));
 }
 
 /// Any of the scan matchers behind the common interface. A scan that does not fit is dead reckoned and not mapped;
@@ -138,7 +121,9 @@ class GuardedScanMatcher final : public LidarOdometry {
   /// The scan without odometry, where that slips; `sample` has no valid step then.
   [[nodiscard]] std::optional<Registration> match_beside(const DeskewedScan& scan, OdometrySample& sample) {
     const std::optional<ExpectedMotion> motion = continued(scan.stamp);
-    if (!sample.valid || !matcher_.ready() || !motion || !slip_.doubts(sample.step, *motion)) {
+    // The others do not tell which directions a scan leaves open.
+    const bool usable = std::is_same_v<Matcher, VgicpOdometry> && sample.valid && matcher_.ready();
+    if (!usable || moved_stamp_ != stamp_ || !motion || !slip_.doubts(sample.step, *motion)) {
       slip_.trust();
       return std::nullopt;
     }

@@ -108,7 +108,7 @@ std::optional<StartTrial::Tracked> StartTrial::better_start() const {
       results.push_back(tracked.tracker.track(scans_[k], tracked.scan));
     }
     const double matched = matched_by(results);
-    if (!tell_way_along(results, mps.normalized())) continue;
+    if (!tell_way_along(results, results_.front().X_MR.q * mps.normalized())) continue;
     if (matched <= most || (results.back().X_MR.t - results_.back().X_MR.t).norm() < same_place_m) continue;
     most = matched;
     tracked.result = std::move(results.back());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace plumbline::slam {
 
@@ -51,6 +52,22 @@ void UnmeasuredWay::measure_from(const UnmeasuredWay& then) {
 // A speed that random accelerations change, integrated.
 double UnmeasuredWay::open_m() const {
   return frozen_m_ + acceleration_mps2_ * std::sqrt(correlation_s * open_s_ * open_s_ * open_s_ / 3.0);
+}
+
+Pose measured_part(const Registration& result, const Pose& step, const Pose& expected) {
+  if (result.unobserved.empty() || result.by_rough_points || result.correlated) return step;
+  constexpr double arm_m = 3.0;  // at which a rotation moves what is seen: of rooms. Assumed
+  const Vector6d scale = (Vector6d() << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(arm_m)).finished();
+  Vector6d off = scale.cwiseProduct(log_se3(expected.inverse() * step));
+  std::vector<Vector6d> open;
+  for (const Vector6d& unobserved : result.unobserved) {
+    Vector6d direction = scale.cwiseProduct(unobserved);
+    for (const Vector6d& other : open) direction -= other.dot(direction) * other;
+    if (direction.norm() < 1e-9) continue;
+    open.push_back(direction.normalized());
+    off -= open.back().dot(off) * open.back();
+  }
+  return expected * exp_se3(off.cwiseQuotient(scale));
 }
 
 }  // namespace plumbline::slam

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "slam/io/records.h"
+#include "slam/registration/registration.h"
 
 namespace plumbline::slam {
 
@@ -54,5 +55,8 @@ class UnmeasuredWay {
   double frozen_m_ = 0.0;  ///< way gone while the robot was believed to stand
   double map_m_ = 0.0;
 };
+
+/// A step but for what nothing measured of it, which is as expected: a match that slid there would go on sliding.
+[[nodiscard]] Pose measured_part(const Registration& result, const Pose& step, const Pose& expected);
 
 }  // namespace plumbline::slam

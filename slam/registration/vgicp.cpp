@@ -100,8 +100,7 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
   const bool measured = config_.odometry_prior && odometry.valid;
   if (ready()) {
     const PosePrior prediction = predict(scan, odometry);
-    const bool any = config_.odometry_prior || config_.tilt_prior;
-    const std::optional<PosePrior> prior = any ? std::optional(prediction) : std::nullopt;
+    const auto prior = config_.odometry_prior || config_.tilt_prior ? std::optional(prediction) : std::nullopt;
     result = align_surfaces(prediction.X_MR, prior, odometry);
     std::optional<Registration> correlated;
     if (config_.correlation && !measured && result.unobserved_directions > 0)
@@ -134,7 +133,7 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
   }
   if (!q_OM_) q_OM_ = odometry.q_OR;
   stamp_ = scan.stamp;
-  moving_share_ += (1.0 - moving_memory) * ((result.moving_R ? 1.0 : 0.0) - moving_share_);
+  if (measured) moving_share_ += (1.0 - moving_memory) * ((result.moving_R ? 1.0 : 0.0) - moving_share_);
   is_measured_ = measured || result.unobserved_directions == 0;
   if (config_.correlation && (!ready() || is_new_view(result.X_MR))) scan_.returns_R = returns_of(scan);
   return result;
@@ -239,7 +238,8 @@ Registration VgicpOdometry::with_rough_points(Registration found, const Pose& ex
                                               const std::optional<PosePrior>& prior,
                                               const OdometrySample& odometry) const {
   if (found.unobserved_directions == 0 || scan_.rough_R.empty() || rough_map_.empty()) return found;
-  return with_rough_points_within(rough_reaches(found.X_MR), std::move(found), expected, prior, odometry);
+  const std::vector<double> reaches_m = rough_reaches(found.X_MR);
+  return with_rough_points_within(reaches_m, std::move(found), expected, prior, odometry);
 }
 
 Registration VgicpOdometry::with_rough_points_within(std::span<const double> reaches_m, Registration found,

@@ -285,6 +285,33 @@ TEST(Sweep, OneScenarioThatIsRefusedLeavesTheOthersTheirTable) {
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.out, first.out);
   EXPECT_EQ(read_file(folder / "out/runs.csv"), rows);
+
+  // A part of the sweep says so, too, and the worst run is one that can be made.
+  EXPECT_EQ(plumbline({"sweep", folder / "sweep.yaml", "--shard", "1/1", "-o", folder / "part"}).code, 2);
+  EXPECT_EQ(
+      plumbline({"sweep", "collect", folder / "sweep.yaml", "--from", folder / "part", "-o", folder / "all"}).code, 2);
+  EXPECT_EQ(read_file(folder / "all/runs.csv"), rows);
+  EXPECT_EQ(read_file(folder / "out/table.html").find("--page bad"), std::string::npos);
+  EXPECT_EQ(plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out", "--page", "worst"}).code, 2);
+  EXPECT_TRUE(fs::exists(folder / "out/pages/good-1/report.html") ||
+              fs::exists(folder / "out/pages/good-2/report.html"));
+}
+
+/// Runs that share a walk: one that is refused takes nothing from the other.
+TEST(Sweep, OneMethodThatCannotRunThereLeavesTheOthersOfItsWalk) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  std::string plan = read_file(project_file("tests/system/short.plan.yaml"));
+  plan.erase(plan.find("\nrooms:"), plan.find("\nmaterials:") - plan.find("\nrooms:"));
+  write_file(folder / "bare.plan.yaml", plan);
+  write_file(folder / "s.yaml", "scenario: 1\nname: s\nbuilding: bare.plan.yaml\nduration_s: 2\nmethods: [odometry]\n");
+  write_file(folder / "sweep.yaml",
+             "sweep: 1\nscenarios: [s.yaml]\nseeds: 1\nvariants: [{name: slam, set: ['methods=[odometry]']}, "
+             "{name: plan, set: ['methods=[s_graph_localization]']}]\n");
+  EXPECT_EQ(plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"}).code, 2);
+  const std::string rows = read_file(folder / "out/runs.csv");
+  EXPECT_NE(rows.find("s,slam,,1,odometry,complete,"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("s,plan,,1,s_graph_localization,failed,,,,\"refused: method "), std::string::npos) << rows;
 }
 
 TEST(Sweep, ReplacesNoTablesOfAnother) {

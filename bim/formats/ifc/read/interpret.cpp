@@ -224,29 +224,29 @@ void Interpreter::sort_all() {
   });
 }
 
-/// Names the rooms that walls enclose by the spaces that have a place in them and no body.
-void Interpreter::name_by_outlines(std::vector<Room>& rooms) const {
-  constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
+/// Where the spaces without a body lie, of those that have a name and an outline. Of one place the first by id.
+std::vector<Interpreter::NamedPlace> Interpreter::places_of_outlines() const {
+  constexpr std::size_t most_corners = 1000;  // of a room; bounds the time
+  std::vector<NamedPlace> places;
   for (const StepProduct& product : model_.products) {
     if (product.kind != StepClass::space || product.space_use != SpaceUse::room || product.name.empty()) continue;
+    if (product.outline.size() < 3 || product.outline.size() > most_corners) continue;
     Polygon2 outline;
-    double z_m = 0.0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& p : product.outline) {
-      const Eigen::Vector3d p_W = product.X_WP * p;
-      if (!p_W.allFinite()) break;
-      outline.emplace_back(p_W.head<2>());
-      z_m = p_W.z();
+      sum += product.X_WP * p;
+      outline.emplace_back((product.X_WP * p).head<2>());
     }
-    if (outline.size() < 3 || !is_simple(outline)) continue;
+    if (!sum.allFinite() || !is_simple(outline)) continue;
     if (signed_area(outline) < 0.0) std::reverse(outline.begin(), outline.end());
-    const Eigen::Vector2d inner = interior_point(outline);
-    for (Room& room : rooms)
-      if (std::abs(room.z0_m - z_m) < over_floor_m && room.contains(inner)) room.name = product.name;
+    places.push_back({interior_point(outline), (product.X_WP * product.outline.front()).z(), product.name});
   }
+  return places;
 }
 
 void Interpreter::add_missing_rooms() {
   const std::vector<Room> given = building_.rooms;
+  const std::vector<NamedPlace> places = places_of_outlines();
   const bool any_space = std::any_of(model_.products.begin(), model_.products.end(), [](const StepProduct& product) {
     return product.kind == StepClass::space && product.space_use == SpaceUse::room;
   });
@@ -274,7 +274,13 @@ void Interpreter::add_missing_rooms() {
         return other.z0_m < room.z1_m && other.z1_m > room.z0_m && other.contains(inner);
       });
     });
-    name_by_outlines(rooms);
+    for (Room& room : rooms) {
+      constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
+      const auto place = std::find_if(places.begin(), places.end(), [&](const NamedPlace& p) {
+        return std::abs(room.z0_m - p.z_m) < over_floor_m && room.contains(p.inner);
+      });
+      if (place != places.end()) room.name = place->name;
+    }
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
     const auto is_front = [&](const Obstacle& obstacle) {
       return stands_here(obstacle) && obstacle.kind == "curtain_panel";

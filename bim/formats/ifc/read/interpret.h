@@ -95,7 +95,12 @@ class Interpreter {
   [[nodiscard]] Building only_building_of(int storey) const;
   void set_heights();
   void add_missing_rooms();
-  void name_by_outlines(std::vector<Room>& rooms) const;
+  struct NamedPlace {
+    Eigen::Vector2d inner;
+    double z_m = 0.0;
+    std::string name;
+  };
+  [[nodiscard]] std::vector<NamedPlace> places_of_outlines() const;
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);
