@@ -69,7 +69,7 @@ std::vector<std::string> OdometryAxes::warnings() const {
     all.push_back(
         "odometry turns against the gyro: one of the two is in other axes than its frame says, "
         "such as NED or left-handed ones");
-  constexpr double fast_mps = 60.0;  // 216 km/h: no vehicle with odometry. A robot in centimetres is as fast
+  constexpr double fast_mps = 60.0;  // 216 km/h: no vehicle with odometry
   if (const double usual = speeds_mps_.empty() ? 0.0 : upper_median(speeds_mps_); usual > fast_mps)
     all.push_back("odometry moves at " + format_number(std::round(usual)) +
                   " m/s: its positions seem to be in centimetres or millimetres, and metres are meant");

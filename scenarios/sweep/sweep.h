@@ -28,10 +28,9 @@ struct SweepOptions {
 
 /// What a sweep has to say when its files are written.
 struct SweepTables {
-  std::string text;  ///< the table
-  std::vector<std::string>
-      notes;            ///< of walks that failed or have warnings, a line for each scenario, variant and start
-  std::string refused;  ///< of runs whose scenario is no input that can be run; empty where there is none
+  std::string text;                ///< the table
+  std::vector<std::string> notes;  ///< see walk_notes()
+  std::string refused;             ///< see refused_in()
 };
 
 /// Makes the results that are not there yet, those of one walk in a child process, then the tables from all of them. A
