@@ -183,6 +183,13 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
   return rows;
 }
 
+std::string walks_title(const SweepRow& row) {
+  std::string title = row.scenario;
+  for (const std::string& part : {row.variant, row.start})
+    if (!part.empty()) title += ", " + part;
+  return title;
+}
+
 std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
   struct Walks {
     std::string title;
@@ -191,9 +198,7 @@ std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
   };
   std::vector<Walks> groups;
   for (const SweepRow& row : rows) {
-    std::string title = row.scenario;
-    for (const std::string& part : {row.variant, row.start})
-      if (!part.empty()) title += ", " + part;
+    const std::string title = walks_title(row);
     auto walks = std::find_if(groups.begin(), groups.end(), [&](const Walks& one) { return one.title == title; });
     if (walks == groups.end()) walks = groups.insert(groups.end(), Walks{title, {}, {}, {}, {}, {}});
     walks->all.insert(row.seed);

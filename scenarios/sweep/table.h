@@ -34,6 +34,8 @@ inline constexpr std::string_view refused_mark = "refused: ";
 /// Of the walks that failed or have warnings: a line for each scenario, variant and start, with the first reason.
 [[nodiscard]] std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows);
 [[nodiscard]] bool is_refused(const SweepRow& row);
+/// "house, compass, {room: hall}": scenario, variant and start, as far as there are any.
+[[nodiscard]] std::string walks_title(const SweepRow& row);
 /// How many runs were refused and why the first was; empty where none was.
 [[nodiscard]] std::string refused_in(const std::vector<SweepRow>& rows);
 

@@ -180,17 +180,10 @@ std::string page_of(const SweepPage& page, const SweepRow& row) {
   return "<code>--page " + svg::escape(row.key) + "</code> " + copy_button(command_for(page, row));
 }
 
-std::string title_of(const SweepRow& row) {
-  std::string title = row.scenario;
-  for (const std::string& part : {row.variant, row.start})
-    if (!part.empty()) title += ", " + part;
-  return title + ", seed " + row.seed;
-}
-
 std::string worst_card(const SweepPage& page, const SweepRow& row) {
   const std::string command = command_for(page, row);
-  return "<section class=\"card\"><h2>The worst run</h2><p>" + svg::escape(title_of(row)) + ": <b>" +
-         svg::escape(row.method) + "</b> is <span class=\"verdict " + std::string(class_of(row)) + "\">" +
+  return "<section class=\"card\"><h2>The worst run</h2><p>" + svg::escape(walks_title(row) + ", seed " + row.seed) +
+         ": <b>" + svg::escape(row.method) + "</b> is <span class=\"verdict " + std::string(class_of(row)) + "\">" +
          svg::escape(row.verdict) + "</span>, " + error_text(row) +
          (row.failure.empty() ? "" : " (" + svg::escape(row.failure) + ")") + ".</p><p>" +
          (page.pages.count(row.key) > 0
@@ -215,11 +208,8 @@ std::string runs_table(const SweepPage& page, const std::vector<const SweepRow*>
       heads({"scenario", "seed", "method", "verdict", "error m", "page"});
   for (std::size_t i = 0; i < std::min(rows.size(), most_runs); ++i) {
     const SweepRow& row = *rows[i];
-    std::string where = row.scenario;
-    for (const std::string& part : {row.variant, row.start})
-      if (!part.empty()) where += ", " + part;
     const auto error = error_of(row);
-    out += "<tr><td>" + svg::escape(where) + "</td><td data-head=\"seed\">" + svg::escape(row.seed) +
+    out += "<tr><td>" + svg::escape(walks_title(row)) + "</td><td data-head=\"seed\">" + svg::escape(row.seed) +
            "</td><td data-head=\"method\">" + svg::escape(row.method) +
            "</td><td data-head=\"verdict\"><span class=\"verdict " + std::string(class_of(row)) + "\">" +
            svg::escape(row.verdict) + "</span></td><td" + (error ? "" : " class=\"none\"") + " data-head=\"error m\">" +
