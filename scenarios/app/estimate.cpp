@@ -17,6 +17,7 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/mount_check.h"
 #include "scenarios/app/odometry_axes.h"
 #include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
@@ -181,6 +182,7 @@ struct Answer {
   double recorded_s = 0.0;  ///< from the first scan to the last
   OdometryGaps gaps;
   OdometryAxes axes;
+  std::optional<std::string> turned_mount;
   ScanGaps scan_gaps;
 };
 
@@ -192,6 +194,7 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   ScansRead scans;
   OdometryGaps gaps;
   OdometryAxes axes;
+  MountCheck mount;
   ScanGaps scan_gaps;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
@@ -201,14 +204,22 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
     gaps.add(frame);
     scan_gaps.add(last);
     axes.add(frame);
+    mount.add(frame);
     progress.at(slam::seconds(last - *first));
     return true;
   };
   std::vector<std::unique_ptr<MethodRunner>> methods;
   methods.push_back(std::make_unique<MethodRunner>(row, input, sensors));
   MethodRecord record = std::move(run_pipeline(source, std::move(methods), {}).front());
+  std::vector<slam::StampedPose> known;
+  for (const slam::StampedPose& pose : record.causal)
+    if (!said_lost(record, pose.stamp)) known.push_back(pose);
+  Answer answer{{},       scans, slam::seconds(last - first.value_or(last)),
+                gaps,     axes,  mount.warning(known, input.calibration.X_RL.q),
+                scan_gaps};
   shift_times(record, recording.origin());
-  return {std::move(record), scans, slam::seconds(last - first.value_or(last)), gaps, axes, scan_gaps};
+  answer.record = std::move(record);
+  return answer;
 }
 
 /// What of the records that the method got a user should know.
@@ -221,6 +232,7 @@ std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) 
         " scans hold no return: their points are at the origin, farther than 1 km or no numbers, or there are none");
   if (!answer.record.crashed && answer.record.causal.empty())
     all.push_back("the method gave no pose at any of " + std::to_string(answer.scans.count) + " scans");
+  if (answer.turned_mount) all.push_back(*answer.turned_mount);
   if (!with_odometry) return all;
   for (const std::string& said : answer.axes.warnings()) all.push_back(said);
   if (const auto gaps = answer.gaps.warning()) all.push_back(*gaps);
