@@ -112,7 +112,7 @@ struct HypothesisConfig {
                    "tried by all; 1: by all at once",
             .min = 1,
             .max = 100});
-    // A column then stands for its neighbours. Assumed; a walk through d6 keeps its hypotheses to the bit.
+    // Assumed; a walk through d6 keeps its hypotheses to the bit.
     v("screening_margin", screening_margin,
       plain_field("log-likelihood ratio below drop_ratio at which the screening rules the pose out", {.min = 0}));
     // 50 m walked.
@@ -272,7 +272,6 @@ class HypothesisSet {
   RefineConfig tracking_refine_;  ///< of a tracked one
   LikelihoodConfig likelihood_;
   HypothesisComparisonConfig comparison_;
-  HypothesisComparisonConfig screening_;  ///< of the thinner beam grid, where a beam stands for several
   std::vector<PoseHypothesis> hypotheses_;
   std::deque<HistoryStep> history_;
   std::optional<ReplayedReference> replayed_reference_;

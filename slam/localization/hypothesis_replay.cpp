@@ -98,7 +98,6 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Storey
                                             const std::vector<ScanAtPose>& reference, Grid grid) const {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(start.storey)];
   const bool screening = grid == Grid::screening;
-  const HypothesisComparisonConfig& comparison = screening ? screening_ : comparison_;
   const double dropped = -config_.drop_ratio - (screening ? config_.screening_margin : 0.0);
   const std::size_t stride = screening ? static_cast<std::size_t>(config_.replay_stride) : replay_stride();
   Pose2 X = start.X_IH;
@@ -113,13 +112,13 @@ HypothesisSet::Replay HypothesisSet::replay(const PlanIndex& index, const Storey
     add_crossed_element(storey, before, X, index.config.body_height_m, crossed);
     if (is_sampled) {
       const int represented_scans = static_cast<int>(std::min(stride, history_.size() - back));
-      past.scans.push_back({X, predict_scan(storey, X, scan, comparison), std::move(crossed), represented_scans});
+      past.scans.push_back({X, predict_scan(storey, X, scan, comparison_), std::move(crossed), represented_scans});
       crossed.clear();
     }
     X = before;
     const std::size_t k = past.scans.size() - 1;
     if (!is_sampled || k >= reference.size()) continue;
-    accumulate_evidence(scan, past.scans[k], reference[k], comparison, past.balance);
+    accumulate_evidence(scan, past.scans[k], reference[k], comparison_, past.balance);
     past.scans[k].predicted = {};
     past.evidence = past.balance.evidence(comparison_);
     if (past.evidence < dropped) break;
