@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/model/building.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bim/digest/digest.h"
@@ -140,6 +141,16 @@ std::uint64_t Building::hash() const {
   add_all(digest, content);
   add_all(digest, materials);
   return digest.value();
+}
+
+std::vector<int> storeys_upwards(const Building& building) {
+  std::vector<int> order;
+  for (std::size_t i = 0; i < building.storeys.size(); ++i) order.push_back(static_cast<int>(i));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return building.storeys[static_cast<std::size_t>(a)].elevation_m <
+           building.storeys[static_cast<std::size_t>(b)].elevation_m;
+  });
+  return order;
 }
 
 }  // namespace plumbline::bim

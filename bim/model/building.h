@@ -205,4 +205,7 @@ struct Building {
   [[nodiscard]] std::uint64_t hash() const;
 };
 
+/// Indices of the storeys from the lowest up (ties: as listed).
+[[nodiscard]] std::vector<int> storeys_upwards(const Building& building);
+
 }  // namespace plumbline::bim

@@ -20,6 +20,7 @@
 #include "scenarios/run/run_files.h"
 #include "scenarios/spec/method_names.h"
 #include "slam/io/clouds/cloud_file.h"
+#include "slam/scan/map_cloud.h"
 
 namespace plumbline::scenarios {
 
@@ -95,7 +96,7 @@ void add_map(const std::string& text, std::vector<MethodRecord>& outside) {
   if (method == outside.end())
     throw InputError(mark, "there is no --estimate '" + name + "' that it could be the map of");
   const std::string file = text.substr(equals + 1);
-  method->estimate.map_F = slam::read_cloud_points(file);
+  method->estimate.map_F = slam::thin_map(slam::read_cloud_points(file));
   if (method->estimate.map_F.empty()) throw InputError({file, 0, 0}, "holds no point");
 }
 

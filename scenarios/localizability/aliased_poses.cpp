@@ -184,7 +184,7 @@ std::vector<FoundAlias> AliasFinder::find(const ReferenceScan& scan, const Alias
     return near_any(taken, place, localizability_constants.basin_m, localizability_constants.basin_deg) ||
            std::any_of(aliases.begin(), aliases.end(), near);
   };
-  constexpr double near_m = 0.3, near_deg = 6.0;
+  const double near_m = localizability_constants.same_alias_m, near_deg = localizability_constants.same_alias_deg;
   const auto judge = [&](const SensorPose& place) {
     if (search.yaw_known &&
         std::abs(wrap_angle(place.yaw - scan.place.yaw)) > localizability_constants.known_yaw_deg * rad_per_deg)

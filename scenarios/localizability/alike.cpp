@@ -11,9 +11,8 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr std::size_t asked_places = 4;         ///< by whose scans the deciding element is named; assumed
-constexpr std::size_t most_tried = 60;          ///< places compared to find them; assumed, so that the work is bounded
-constexpr double same_m = 0.3, same_deg = 6.0;  ///< as in compute_localizability_map
+constexpr std::size_t asked_places = 4;  ///< by whose scans the deciding element is named; assumed
+constexpr std::size_t most_tried = 60;   ///< places compared to find them; assumed, so that the work is bounded
 
 class AlikeFinder {
  public:
@@ -41,8 +40,10 @@ class AlikeFinder {
       const SensorPose first = place(cells[g].front());
       const auto alike = [&](std::size_t t) {
         const Pose back = map_.isometries[t].inverse() * first.pose();  // from the images to the places is the same
-        return same_pose(image(t, first), image(g, first), same_m, same_deg) ||
-               same_pose({back.t, back.yaw()}, image(g, first), same_m, same_deg);
+        return same_pose(image(t, first), image(g, first), localizability_constants.same_alias_m,
+                         localizability_constants.same_alias_deg) ||
+               same_pose({back.t, back.yaw()}, image(g, first), localizability_constants.same_alias_m,
+                         localizability_constants.same_alias_deg);
       };
       if (std::any_of(taken.begin(), taken.end(), alike)) continue;
       taken.push_back(g);
@@ -65,7 +66,8 @@ class AlikeFinder {
   }
   [[nodiscard]] int storey_at(const Eigen::Vector3d& p_W) const {
     for (std::size_t s = 0; s < storeys_.size(); ++s)
-      if (std::abs(storeys_[s].sensor_z_W(p_W.head<2>()) - p_W.z()) < same_m) return static_cast<int>(s);
+      if (std::abs(storeys_[s].sensor_z_W(p_W.head<2>()) - p_W.z()) < localizability_constants.same_alias_m)
+        return static_cast<int>(s);
     return -1;
   }
   [[nodiscard]] int room_at(const Eigen::Vector3d& p_W) const {

@@ -25,6 +25,8 @@ struct LocalizabilityConstants {
   double min_clearance_m = 0.3;  ///< a robot's centre is never nearer to a wall
   double distinct_m = 0.5;       ///< nearer than this and distinct_deg to the truth is the truth
   double distinct_deg = 10.0;
+  double same_alias_m = 0.3;  ///< two aliases nearer to each other than this and same_alias_deg are one
+  double same_alias_deg = 6.0;
   int signature_azimuths = 72;      ///< beams a ring of the views by which candidates are chosen
   double signature_range_m = 30.0;  ///< ranges count no further there
   double like_quantiles_m = 0.6;    ///< candidates' ranges, sorted, differ by no more than this on average

@@ -73,7 +73,9 @@ class Mapper {
     for (const CellAlias& alias : aliases) taken.push_back(image(alias.isometry, scan.place));
     for (std::size_t g = 0; g < map_.isometries.size(); ++g) {
       const SensorPose alias = image(g, scan.place);
-      const auto alike = [&](const SensorPose& other) { return same_pose(alias, other, 0.3, 6.0); };
+      const auto alike = [&](const SensorPose& other) {
+        return same_pose(alias, other, localizability_constants.same_alias_m, localizability_constants.same_alias_deg);
+      };
       if (same_pose(alias, scan.place, localizability_constants.distinct_m, localizability_constants.distinct_deg) ||
           !on_a_storey_asked_for(cell, alias))
         continue;

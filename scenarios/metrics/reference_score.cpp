@@ -5,18 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "bim/median.h"
+
 namespace plumbline::scenarios::score {
 
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-/// The mean of the two in the middle where there is an even number of them. Not empty.
-double middle_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 /// Distance from the first pose along the path to each pose, m.
 std::vector<double> distances_of(const std::vector<slam::StampedPose>& poses) {
@@ -31,7 +26,7 @@ double longest_interval(const std::vector<slam::StampedPose>& poses, const Refer
   std::vector<double> intervals;
   for (std::size_t i = 1; i < poses.size(); ++i)
     intervals.push_back(static_cast<double>(poses[i].stamp - poses[i - 1].stamp));
-  return intervals.empty() ? 0.0 : rules.most_intervals * middle_of(std::move(intervals));
+  return intervals.empty() ? 0.0 : rules.most_intervals * median(std::move(intervals));
 }
 
 void score_steps(const std::vector<PosePair>& pairs, ReferenceScore& score) {
@@ -45,8 +40,8 @@ void score_steps(const std::vector<PosePair>& pairs, ReferenceScore& score) {
   if (meters.empty()) return;
   score.step_error_max_m = *std::max_element(meters.begin(), meters.end());
   score.step_rotation_max_deg = *std::max_element(turns.begin(), turns.end());
-  score.step_error_median_m = middle_of(std::move(meters));
-  score.step_rotation_median_deg = middle_of(std::move(turns));
+  score.step_error_median_m = median(std::move(meters));
+  score.step_rotation_median_deg = median(std::move(turns));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::span<const ResultWord> result_words() {
       {slam, "lost", "fewer than 95 % of the scans have a pose"},
       {slam, "crashed", "the method stopped with an error, which `error` gives; a localization may, too"},
       {place, to_string(V::success),
-       "one answer, right from the first convergence to the end, for at least 5 s and 1 m"},
+       "one answer at the end, and every pose right since the first one, for at least 5 s and 1 m"},
       {place, to_string(V::honest_ambiguity),
        "several poses explain the scans, and the hypotheses are these poses and no others"},
       {place, to_string(V::false_convergence), "a wrong pose was CONVERGED"},

@@ -74,7 +74,7 @@ void score_structure(const MethodRecord& method, const Pose& X_WF, const Referen
   const WallScore walls = score_walls(estimate, X_WF, reference.as_built, reference.surface_W);
   // In a building of which no walls are known, a wall found is neither right nor wrong.
   if (!reference.as_built.faces.empty()) score.walls = walls;
-  if (method.localization && estimate.rooms.empty()) return;  // it is given the rooms
+  if (method.localization) return;  // it is given the rooms
   if (!rooms_are_known(reference)) return;
   score.rooms = score_rooms(estimate, X_WF, reference.as_built, walls, reference.truth);
 }
@@ -123,7 +123,7 @@ bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   if (metric.starts_with("storeys.")) return !estimate.floors.empty() && !method.localization;
   if (metric.starts_with("loops.")) return estimate.loops.has_value() && !method.localization;
   if (metric.starts_with("segmentation.")) return !estimate.segmented.empty() && !method.localization;
-  if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !(method.localization && estimate.rooms.empty());
+  if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !method.localization;
   if (metric.starts_with("localization.nees") || metric == "localization.handover_precision")
     return !method.beliefs.empty();
   return metric.starts_with("localization.") == method.localization;

@@ -17,16 +17,6 @@ namespace {
 
 constexpr double coordinate_steps = 1e4;
 
-std::vector<int> storeys_upwards(const bim::Building& building) {
-  std::vector<int> order;
-  for (std::size_t i = 0; i < building.storeys.size(); ++i) order.push_back(static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return building.storeys[static_cast<std::size_t>(a)].elevation_m <
-           building.storeys[static_cast<std::size_t>(b)].elevation_m;
-  });
-  return order;
-}
-
 }  // namespace
 
 Eigen::Vector2d rounded(const Eigen::Vector2d& p) {
@@ -126,7 +116,7 @@ RoomPlaces::Start RoomPlaces::start_on(int storey) const {
 
 int RoomPlaces::start_storey() const {
   int fallback = -1;
-  for (const int storey : storeys_upwards(building_)) {
+  for (const int storey : bim::storeys_upwards(building_)) {
     const Start start = start_on(storey);
     if (start.rooms > 1) return storey;
     if (start.room >= 0 && fallback < 0) fallback = storey;

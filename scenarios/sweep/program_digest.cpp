@@ -110,6 +110,11 @@ std::vector<std::string> words_of(const Tree& process) {
 
 }  // namespace
 
+std::uint64_t own_program_digest() {
+  static const std::uint64_t digest = Digest().add(bytes_of("/proc/self/exe")).value();
+  return digest;
+}
+
 std::uint64_t ProgramDigests::of(const Tree& scenario) {
   Digest digest;
   const Tree* processes = scenario.find("processes");

@@ -26,4 +26,7 @@ class ProgramDigests {
   std::vector<std::string> notes_;
 };
 
+/// Of this program itself, so that a run made by another build is made again. Read once.
+[[nodiscard]] std::uint64_t own_program_digest();
+
 }  // namespace plumbline::scenarios

@@ -237,7 +237,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
           sweep.runs.push_back({part + "-" + std::to_string(seed), scenario.name(), variants[v].name,
                                 start == nullptr ? "" : flow_text(to_tree(*start)), seed,
                                 sweep.scenario_texts.size() - 1,
-                                hex64(Digest(input).add(seed).add(PLUMBLINE_VERSION).value()),
+                                hex64(Digest(input).add(seed).add(own_program_digest()).value()),
                                 hex64(Digest(simulation).add(seed).value())});
         }
       }

@@ -19,7 +19,7 @@ SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from 
   instead (`set: [sensors=lidar]`).
 - Groups of such runs are processes of their own, `--jobs` at a time.
 - Each run leaves one file in `results/`, complete or not at all. A run is not repeated while scenario, building, seed
-  and version are those of its file. A sweep that was interrupted therefore continues.
+  and program are those of its file. A sweep that was interrupted therefore continues.
 - `runs.csv` has a row for each run and method, with the cause of a failure. `table.txt`, `table.csv` and `table.html`
   have a row for each scenario, variant, start and method over all seeds. `sweep.sqlite` holds both. In the `.csv` files an
   apostrophe stands before a word that a spreadsheet would take for a formula.
@@ -28,8 +28,8 @@ SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from 
   where several poses explain the scans. In marginal runs (evidence `weak`) the alternatives are nearly excluded, or too late
   to hold an answer for 5 s and 1 m.
 - They give the success rate of identifiable runs with its 95 % interval (Wilson), the share of `honest_ambiguity` of
-  ambiguous runs, the share of right answers of marginal runs, false convergences, and the median error of all runs.
-- The median distance to convergence counts an identifiable run without `success` as infinite.
+  ambiguous runs, the share of right answers of marginal runs, false convergences, and the median error of the identifiable runs.
+- The median distance to convergence counts an identifiable run without `success` as infinite, the median error one that has none.
 - Rows of SLAM methods give the share of `complete` and the median error.
 - Gates belong to `plumbline run`. A sweep checks none, and its exit code is 0 whatever its table holds.
 - A run whose scenario cannot be walked counts as failed; the others go on, their table is written, and the exit code is 2.

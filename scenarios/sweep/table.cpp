@@ -2,6 +2,7 @@
 #include "scenarios/sweep/table.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -49,6 +50,28 @@ struct Samples {
   std::vector<double> identifiable_at_s, identifiable_at_m, converged_at_m, error_m;
 };
 
+/// Whether a walk's scans leave one pose is known from any of its localizations, one that crashed has its own not.
+void complete_by_walk(std::vector<SweepRow>& rows) {
+  std::map<std::array<std::string, 4>, const SweepRow*> known;
+  const auto walk_of = [](const SweepRow& row) {
+    return std::array<std::string, 4>{row.scenario, row.variant, row.start, row.seed};
+  };
+  std::set<std::array<std::string, 4>> localizers;
+  for (const SweepRow& row : rows) {
+    if (!row.identifiable) continue;
+    known.try_emplace(walk_of(row), &row);
+    localizers.insert({row.scenario, row.variant, row.start, row.method});
+  }
+  for (SweepRow& row : rows) {
+    const auto it = known.find(walk_of(row));
+    if (row.identifiable || it == known.end() ||
+        !localizers.contains({row.scenario, row.variant, row.start, row.method}))
+      continue;
+    row.identifiable = it->second->identifiable;
+    row.evidence = it->second->evidence;
+  }
+}
+
 void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
   static const std::size_t at_s = metric_index("localization.identifiable_at_s");
   static const std::size_t at_m = metric_index("localization.identifiable_at_m");
@@ -63,13 +86,13 @@ void count(const SweepRow& row, SweepCell& cell, Samples& samples) {
   }
   if (row.identifiable) cell.localizes = true;
   const std::optional<double> error = row.values[cell.localizes ? ape : ate];
-  if (error) samples.error_m.push_back(*error);
   if (row.verdict == "false_convergence" || row.verdict == "overconfident") ++cell.false_convergences;
   if (row.evidence == "weak") {
     ++cell.marginal;
     if (row.verdict == "success" || row.verdict == "honest_ambiguity") ++cell.marginal_right;
   } else if (row.identifiable.value_or(true)) {
     ++cell.judged;
+    samples.error_m.push_back(error.value_or(infinite));
     if (row.verdict == "success" || row.verdict == "complete") ++cell.succeeded;
     const bool found = row.verdict == "success";
     samples.converged_at_m.push_back(found ? row.values[converged_m].value_or(infinite) : infinite);
@@ -241,7 +264,8 @@ std::optional<double> error_of(const SweepRow& row) {
   return row.values[row.identifiable ? ape : ate];
 }
 
-std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows) {
+std::vector<SweepCell> cells_of(std::vector<SweepRow> rows) {
+  complete_by_walk(rows);
   std::vector<SweepCell> cells;
   std::vector<Samples> samples;
   for (const SweepRow& row : rows) {
@@ -290,7 +314,7 @@ std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
          std::to_string(c.false_convergences), optional_text(c.median_identifiable_at_s, 1),
          optional_text(c.median_identifiable_at_m, 1),
          c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
-         optional_text(c.median_error_m, 3), verdict_list(c)});
+         c.judged > 0 && !c.median_error_m ? "never" : optional_text(c.median_error_m, 3), verdict_list(c)});
   return lines;
 }
 

@@ -62,10 +62,12 @@ struct SweepCell {
   std::optional<double> median_identifiable_at_s;  ///< of the identifiable ones
   std::optional<double> median_converged_at_m;     ///< infinite where it is no success; absent when that is the median
   std::optional<double> median_identifiable_at_m;
-  std::optional<double> median_error_m;  ///< APE of a localization, aligned ATE of SLAM, where there is one
+  /// APE of a localization, aligned ATE of SLAM, of the runs judged; infinite where a run has none; absent when that is
+  /// the median.
+  std::optional<double> median_error_m;
 };
 /// In the order in which they come up first.
-[[nodiscard]] std::vector<SweepCell> cells_of(const std::vector<SweepRow>& rows);
+[[nodiscard]] std::vector<SweepCell> cells_of(std::vector<SweepRow> rows);
 
 [[nodiscard]] std::string runs_csv(const std::vector<SweepRow>& rows);
 [[nodiscard]] std::string table_text(const std::vector<SweepCell>& cells);

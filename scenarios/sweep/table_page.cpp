@@ -246,7 +246,8 @@ the share of complete; in brackets the 95 % interval of Wilson. Honest: of the r
 those that reported so. Marginal: right ones of the runs between, where the other poses are nearly ruled out, or were too
 late to hold an answer for 5 s and 1 m. Wrong: single answers at a wrong pose, or where several fit. Identifiable at:
 when the scans left one pose, median. Converged at: metres until the answer of a success, median over the identifiable
-runs, the others counted as never. Error: of the position, rms, median of all runs that have one. Click a heading to sort by it.</p></section>
+runs, the others counted as never. Error: of the position, rms, median over the runs that success counts over, one without an answer
+counted as infinite. Click a heading to sort by it.</p></section>
 )html";
   out += notes_card(walk_notes(rows));
   // A run that cannot be made has no page.

@@ -19,14 +19,6 @@ constexpr double clearance_m = 0.2;      // returns this near the sensor's own h
 constexpr double kernel_start_m = 0.15;  // robust scale: a tilt of 2 degrees at 4 m, ...
 constexpr double kernel_end_m = 0.0375;  // ... and what noise needs
 
-/// Coordinates of these returns in R.
-std::vector<Eigen::Vector3d> points_of(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) {
-  std::vector<Eigen::Vector3d> points_R;
-  points_R.reserve(points.size());
-  for (const std::uint32_t i : points) points_R.push_back(scan.point_R[i]);
-  return points_R;
-}
-
 /// Plane by reweighted least squares (Cauchy), whose scale is halved every second step towards `kernel_end_m`.
 Plane robust_plane(const std::vector<Eigen::Vector3d>& points_R, Plane plane, double kernel_m) {
   for (int step = 0; kernel_m >= kernel_end_m; ++step) {

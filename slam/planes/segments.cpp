@@ -76,7 +76,7 @@ class RingCutter {
         ring_(ring),
         points_(std::move(points)),
         config_(config),
-        points_R_(side_by_side(scan, points_)),
+        points_R_(points_of(scan, points_)),
         sums_(points_R_) {}
 
   void cut(std::vector<RingSegment>& out) const {
@@ -89,14 +89,6 @@ class RingCutter {
   }
 
  private:
-  /// A scan stores the points of a ring far apart.
-  static std::vector<Eigen::Vector3d> side_by_side(const DeskewedScan& scan, const std::vector<std::uint32_t>& points) {
-    std::vector<Eigen::Vector3d> points_R;
-    points_R.reserve(points.size());
-    for (const std::uint32_t i : points) points_R.push_back(scan.point_R[i]);
-    return points_R;
-  }
-
   [[nodiscard]] Eigen::Vector2d xy(std::size_t i) const { return points_R_[i].head<2>(); }
 
   [[nodiscard]] bool jumps(std::size_t i) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "bim/config/tree.h"
@@ -11,6 +12,7 @@
 #include "slam/io/pose_check.h"
 #include "slam/process/child.h"
 #include "slam/process/client/plumbline_messages.h"
+#include "slam/scan/map_cloud.h"
 
 namespace plumbline::slam {
 
@@ -122,7 +124,7 @@ Estimate read_estimate(std::span<const std::byte> payload, bool localization, bo
   static_cast<void>(reader.take_bytes(head.json_bytes));
   Estimate estimate;
   estimate.frame = localization ? Frame::world : Frame::map;
-  Nanoseconds before = -1;
+  Nanoseconds before = std::numeric_limits<Nanoseconds>::min();
   for (std::uint64_t i = 0; i < head.poses; ++i) {
     const auto pose = reader.take<wire::Odometry>();
     if (pose.stamp_ns <= before) throw ProcessFailure("has a trajectory whose times do not grow");
@@ -135,6 +137,7 @@ Estimate read_estimate(std::span<const std::byte> payload, bool localization, bo
     if (!p.allFinite()) throw ProcessFailure("has a point of the map that is not finite");
     estimate.map_F.push_back(p);
   }
+  estimate.map_F = thin_map(estimate.map_F);
   return estimate;
 }
 

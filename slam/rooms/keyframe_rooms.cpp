@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "slam/planes/forms.h"
+#include "slam/rooms/cluster_walls.h"
 
 namespace plumbline::slam {
 
@@ -103,11 +104,6 @@ Vector2d intersection(const Vector2d& m, double e, const Vector2d& n, double f) 
   Eigen::Matrix2d A;
   A << m.transpose(), n.transpose();
   return -(A.inverse() * Vector2d(e, f));
-}
-
-Polygon2 counter_clockwise(Polygon2 polygon) {
-  if (signed_area(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
-  return polygon;
 }
 
 RoomCandidate four_walls(const Opposed& x, const Opposed& y) {

@@ -133,6 +133,15 @@ std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
   return map;
 }
 
+std::vector<Eigen::Vector3f> thin_map(const std::vector<Eigen::Vector3f>& points_F, double voxel_m) {
+  VoxelMeans voxels(voxel_m);
+  for (const Eigen::Vector3f& p : points_F) voxels.add(p.cast<double>());
+  std::vector<Eigen::Vector3f> thinned = to_float(voxels.means());
+  constexpr double thinned_already = 0.99;  // rounding moves a mean into the voxel beside its own
+  return static_cast<double>(thinned.size()) > thinned_already * static_cast<double>(points_F.size()) ? points_F
+                                                                                                      : thinned;
+}
+
 bool MapCloudRecorder::add(const DeskewedScan& scan, const Pose& X_FR) {
   if (!keyframes_.empty() && (keyframes_.back().X_FR.t - X_FR.t).norm() < config_.spacing_m) return false;
   keep(scan, X_FR);

@@ -122,6 +122,13 @@ void MotionBuffer::set_clock_offset(Nanoseconds offset, Nanoseconds t) {
   frame_shift_ = frame_shift_ ? shift * *frame_shift_ : shift;
 }
 
+std::vector<Eigen::Vector3d> points_of(const DeskewedScan& scan, const std::vector<std::uint32_t>& returns) {
+  std::vector<Eigen::Vector3d> points_R;
+  points_R.reserve(returns.size());
+  for (const std::uint32_t i : returns) points_R.push_back(scan.point_R[i]);
+  return points_R;
+}
+
 Pose join_frames(const Pose& X_OR, const Pose& X_BR) {
   const auto level = [](const Pose& X) { return Pose::from_xyz_yaw(X.t, X.yaw()); };
   return level(X_OR) * level(X_BR).inverse();

@@ -104,6 +104,10 @@ struct DeskewedScan {
   TwistSigma twist_sigma;                ///< of the motion during the scan that was undone
 };
 
+/// Coordinates of these returns in R, side by side; a scan stores those of a ring far apart.
+[[nodiscard]] std::vector<Eigen::Vector3d> points_of(const DeskewedScan& scan,
+                                                     const std::vector<std::uint32_t>& returns);
+
 /// False: points in the order of a file, not of lasers.
 [[nodiscard]] inline bool has_rings(const Scan& scan) { return scan.rings >= 4; }
 [[nodiscard]] inline bool has_rings(const DeskewedScan& scan) { return scan.rings >= 4; }

@@ -12,21 +12,10 @@ namespace plumbline::bim {
 
 namespace {
 
-/// Indices of the storeys from the lowest up (ties: as listed).
-std::vector<int> upwards(const Building& building) {
-  std::vector<int> order;
-  for (std::size_t i = 0; i < building.storeys.size(); ++i) order.push_back(static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return building.storeys[static_cast<std::size_t>(a)].elevation_m <
-           building.storeys[static_cast<std::size_t>(b)].elevation_m;
-  });
-  return order;
-}
-
 /// Foot and head of an entry's stair and of its repetitions in copies of its lower storey.
 std::vector<std::pair<int, int>> spans(const PlanFile& plan, const PlanStairEntry& entry, const Building& building) {
   const int from = find_entry(plan.storeys, entry.from), to = find_entry(plan.storeys, entry.to);
-  const std::vector<int> order = upwards(building);
+  const std::vector<int> order = storeys_upwards(building);
   const auto rank = [&](int storey) { return std::find(order.begin(), order.end(), storey) - order.begin(); };
   const auto up = rank(to) - rank(from);
   std::vector<std::pair<int, int>> found = {{from, to}};

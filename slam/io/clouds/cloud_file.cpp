@@ -2,12 +2,16 @@
 // Apart, for what it includes takes long to compile.
 #include "slam/io/clouds/cloud_file.h"
 
+#include <fcntl.h>
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -76,10 +80,10 @@ pcl::PCLPointCloud2 to_pcl(const PointCloud& from) {
   return cloud;
 }
 
-int write_binary(const std::string& file, const pcl::PCLPointCloud2& cloud) {
+int write_binary(const std::string& file, CloudFormat format, const pcl::PCLPointCloud2& cloud) {
   const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
   const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  const bool ply = cloud_format_of(file) == CloudFormat::ply;
+  const bool ply = format == CloudFormat::ply;
   if (ply && !cloud.data.empty()) return pcl::PLYWriter().writeBinary(file, cloud, origin, orientation, false);
   const std::string header = ply ? pcl::PLYWriter().generateHeaderBinary(cloud, origin, orientation, 0, false)
                                  : pcl::PCDWriter().generateHeaderBinary(cloud, origin, orientation) + "DATA binary\n";
@@ -90,6 +94,15 @@ int write_binary(const std::string& file, const pcl::PCLPointCloud2& cloud) {
   const int failed = pcl::PCDWriter().writeBinary(file, cloud, origin, orientation);
   if (failed >= 0) std::filesystem::resize_file(file, header.size() + cloud.data.size());  // it is a page longer
   return failed;
+}
+
+/// Onto the disk, and then in the place of what has this name.
+bool publish(const std::string& temporary, const std::string& file) {
+  const int handle = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  if (handle < 0) return false;
+  const bool synced = ::fsync(handle) == 0 || errno == EINVAL;
+  ::close(handle);
+  return synced && std::rename(temporary.c_str(), file.c_str()) == 0;
 }
 
 }  // namespace
@@ -115,19 +128,24 @@ PointCloud read_cloud_file(const std::string& file) {
 
 void write_cloud_file(const std::string& file, const PointCloud& cloud) {
   quiet_pcl();
+  const CloudFormat format = cloud_format_of(file);
+  const std::string temporary = file + ".tmp";
   int failed = 0;
   try {
     pcl::PCLPointCloud2 points = to_pcl(cloud);
-    if (cloud_format_of(file) == CloudFormat::ply) {  // which has no rows
+    if (format == CloudFormat::ply) {  // which has no rows
       points.width *= points.height;
       points.height = 1;
       points.row_step = points.width * points.point_step;
     }
-    failed = write_binary(file, points);
+    failed = write_binary(temporary, format, points);
   } catch (const std::exception& error) {
+    std::remove(temporary.c_str());
     throw EnvironmentError("cannot write " + file + ": " + error.what());
   }
-  if (failed < 0) throw EnvironmentError("cannot write " + file);
+  if (failed >= 0 && publish(temporary, file)) return;
+  std::remove(temporary.c_str());
+  throw EnvironmentError("cannot write " + file);
 }
 
 PointCloud cloud_of(const std::vector<Eigen::Vector3f>& points) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <zlib.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -13,6 +11,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/ros2/compression.h"
+#include "slam/io/ros2/mcap_chunk.h"
 #include "slam/io/ros2/mcap_format.h"
 #include "slam/io/ros2/ros2_writer.h"
 
@@ -39,10 +38,6 @@ void put_text(Bytes& bytes, std::string_view text) {
 void put_list(Bytes& bytes, const Bytes& entries) {
   put(bytes, static_cast<std::uint32_t>(entries.size()));
   put_bytes(bytes, entries);
-}
-
-std::uint32_t checksum(std::uint32_t before, std::span<const std::uint8_t> bytes) {
-  return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
 }
 
 Bytes record(Op op, std::span<const std::uint8_t> content) {
@@ -75,7 +70,7 @@ struct McapFile {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
       throw EnvironmentError(path + ": cannot be written: " + std::strerror(errno));
     written += bytes.size();
-    data_crc = checksum(data_crc, bytes);
+    data_crc = mcap::checksum(data_crc, bytes);
   }
 
   void close_chunk() {
@@ -85,7 +80,7 @@ struct McapFile {
     put(content, chunk_start);
     put(content, chunk_end);
     put(content, size);
-    put(content, checksum(0, chunk));
+    put(content, mcap::checksum(0, chunk));
     put_text(content, compression);
     const Bytes packed = pack(compression, std::exchange(chunk, {}));
     put(content, std::uint64_t{packed.size()});
@@ -247,7 +242,7 @@ void McapWriter::finish() {
   put(footer, summary_at);
   put(footer, offsets_at);
   put_bytes(summary, footer);
-  put(summary, checksum(0, summary));
+  put(summary, mcap::checksum(0, summary));
   w.emit(summary);
   w.emit(mcap::magic);
   if (std::fclose(w.file.release()) != 0)

@@ -195,7 +195,6 @@ class Client {
   }
 
   void answer(const Pose& X_FR, int state = 2) {
-    answered_.push_back({scan_.stamp_ns, X_FR});
     wire::Output output;
     output.has_pose = 1;
     output.X_FR = X_FR;
@@ -209,6 +208,9 @@ class Client {
   }
   /// Of a localization in a plan.
   void answer(wire::Output output, int state, const std::vector<wire::Hypothesis>& hypotheses) {
+    if (hypotheses.size() > std::numeric_limits<std::uint16_t>::max())
+      throw std::invalid_argument("an answer has at most 65535 hypotheses");
+    if (output.has_pose != 0) answered_.push_back({scan_.stamp_ns, output.X_FR});
     output.stamp_ns = scan_.stamp_ns;
     output.state = static_cast<std::uint8_t>(state);
     output.hypotheses = static_cast<std::uint16_t>(hypotheses.size());

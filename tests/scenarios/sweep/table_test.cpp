@@ -105,6 +105,39 @@ TEST(SweepTable, AMedianOfMostlyNeverIsNever) {
   EXPECT_NE(table_text(cells_of(all)).find("never"), std::string::npos);
 }
 
+TEST(SweepTable, ARunWithoutAnAnswerHasAnInfiniteError) {
+  std::vector<SweepRow> all;
+  for (const Tree& tree :
+       {result("1", "success", true, 3.0), result("2", "late", true, 0.0), result("3", "late", true, 0.0)})
+    for (const SweepRow& row : rows_of(tree, "x")) all.push_back(row);
+  EXPECT_FALSE(cells_of(all)[0].median_error_m.has_value());
+  all.erase(all.begin() + 4, all.end());
+  all.push_back(all[0]);
+  EXPECT_EQ(cells_of(all)[0].median_error_m, 0.1) << "two of three have 0.1 m";
+}
+
+// A method that crashed at a walk where several poses fit has not failed to tell them apart.
+TEST(SweepTable, ACrashCountsWhereTheOthersOfItsWalkDo) {
+  const Tree ambiguous = result("5", "honest_ambiguity", false, 0.0), unique = result("1", "success", true, 3.0);
+  std::vector<SweepRow> all;
+  for (const Tree& tree : {unique, ambiguous})
+    for (SweepRow& row : rows_of(tree, "x")) {
+      if (row.method != "finder") continue;
+      all.push_back(row);
+      row.method = "other";
+      if (row.seed == "5") {
+        row.verdict = "crashed";
+        row.identifiable.reset();
+      }
+      all.push_back(row);
+    }
+  const std::vector<SweepCell> cells = cells_of(all);
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_EQ(cells[1].judged, 1);
+  EXPECT_EQ(cells[1].ambiguous, 1);
+  EXPECT_EQ(cells[1].honest, 0);
+}
+
 TEST(SweepTable, FoundAtIsTheMedianWithWrongAnswersAsNever) {
   std::vector<SweepRow> all;
   for (const Tree& tree : {result("1", "success", true, 3.0), result("2", "success", true, 5.0),

@@ -31,6 +31,21 @@ TEST(MapCloud, EveryOtherIsKept) {
   }
 }
 
+TEST(MapCloud, OfOthersIsThinnedOnce) {
+  std::vector<Eigen::Vector3f> dense;
+  for (int i = 0; i < 300; ++i)
+    for (int j = 0; j < 300; ++j)
+      dense.emplace_back(0.01F * static_cast<float>(i), 0.02F, 0.01F * static_cast<float>(j));
+  const std::vector<Eigen::Vector3f> thin = thin_map(dense);
+  EXPECT_LT(thin.size(), dense.size() / 20);
+  EXPECT_GT(thin.size(), dense.size() / 30);
+  EXPECT_EQ(thin_map(thin), thin);
+  const std::vector<CloudKeyframe> keyframes = {cloud()};
+  const std::vector<Eigen::Vector3f> ours = map_cloud(keyframes, {});
+  EXPECT_EQ(thin_map(ours), ours);
+  EXPECT_TRUE(thin_map({}).empty());
+}
+
 TEST(MapCloud, StraysAreDropped) {
   const std::vector<CloudKeyframe> one = {cloud()};
   const auto strays = [](const std::vector<Eigen::Vector3f>& map) {
