@@ -60,6 +60,16 @@ PairedRows paired(const CompareArguments& options, const ComparedFolder& a, cons
                        run_title(first) + ", " + first.method + ", and here " + run_title(other) + ", " + other.method);
 }
 
+/// A metric that was asked for by name and that nothing has would pass unseen.
+void check_measured(const PairedRows& rows, const std::vector<std::string>& named) {
+  for (const std::string& name : named) {
+    const auto at = static_cast<std::size_t>(score::find_metric(name) - score::metrics().data());
+    if (std::none_of(rows.pairs.begin(), rows.pairs.end(),
+                     [&](const RowPair& pair) { return pair.a.values[at] || pair.b.values[at]; }))
+      throw InputError({"--metric", 0, 0}, "no run of a pair has '" + name + "'; name a metric of these methods");
+  }
+}
+
 bool fails(const Comparison& comparison, const std::string& fail_on) {
   if (fail_on == "never") return false;
   const bool worse = comparison.finding == Finding::worse || comparison.finding == Finding::mixed;
@@ -72,6 +82,7 @@ int compare(const CompareArguments& options) {
   const std::vector<std::string> metrics = asked_metrics(options.metrics);
   const ComparedFolder a = read_compared_folder(options.a), b = read_compared_folder(options.b);
   const PairedRows rows = paired(options, a, b);
+  check_measured(rows, options.metrics);
   for (const ComparedFolder* folder : {&a, &b})
     for (const std::string& note : folder->notes) print_note("plumbline: warning: " + note);
   const Comparison comparison = compare_rows(rows, metrics);

@@ -5,7 +5,6 @@
 #include <array>
 #include <set>
 
-#include "bim/errors.h"
 #include "scenarios/compare/compared_value.h"
 #include "scenarios/compare/paired_tests.h"
 

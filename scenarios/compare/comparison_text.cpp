@@ -53,6 +53,7 @@ std::string not_shown_text(const ComparedValue& value) {
 
 std::string finding_text(const ComparedValue& value) {
   if (!value.finding) return "";
+  if (*value.finding == Finding::differs && value.differing() == 0) return "equal";
   return *value.finding == Finding::not_shown ? not_shown_text(value) : to_string(*value.finding);
 }
 
@@ -143,7 +144,7 @@ std::string sensors_text(const Comparison& comparison) {
   if (comparison.same_sensors == all) return "sensor data: the same in A and B\n";
   std::string text = "sensor data: ";
   if (comparison.other_sensors > 0)
-    text += "differs in " + std::to_string(comparison.other_sensors) + " of " + plural(all, "pair") +
+    text += "not the same in " + std::to_string(comparison.other_sensors) + " of " + plural(all, "pair") +
             ", which are paired by name only\n";
   else
     text += "not known to be the same in " + std::to_string(comparison.unknown_sensors) + " of " + plural(all, "pair") +
