@@ -2,14 +2,18 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/process.h"
+#include "scenarios/compare/compared_builds.h"
 #include "scenarios/compare/compared_folder.h"
 #include "scenarios/compare/comparison.h"
 #include "scenarios/compare/comparison_text.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/metrics.h"
 
@@ -20,6 +24,8 @@ namespace {
 struct CompareArguments {
   std::string a, b;
   std::vector<std::string> metrics;
+  std::string on, out;
+  int seeds = 0, jobs = 0;
   std::string fail_on = "worse";
   bool json = false;
 };
@@ -78,9 +84,26 @@ bool fails(const Comparison& comparison, const std::string& fail_on) {
          (comparison.finding != Finding::same || !comparison.only_a.empty() || !comparison.only_b.empty());
 }
 
+/// The folders to compare: those that are named, or those that two programs make.
+std::pair<std::string, std::string> folders(const CompareArguments& options) {
+  if (options.on.empty()) {
+    for (const std::string& name : {options.a, options.b})
+      if (is_program(name))
+        throw InputError({name, 0, 0}, "is a program; name by --on the sweep that both are to run, and by -o a folder");
+    return {options.a, options.b};
+  }
+  if (options.out.empty()) throw InputError({"--on", 0, 0}, "needs -o: the folder of both sweeps");
+  for (const std::string& name : {options.a, options.b})
+    if (!is_program(name)) throw InputError({name, 0, 0}, "is no program; with --on name two plumbline programs");
+  catch_interrupts();
+  return sweep_with_both(
+      {options.a, options.b, options.on, options.out, options.seeds, options.jobs > 0 ? options.jobs : allowed_cpus()});
+}
+
 int compare(const CompareArguments& options) {
   const std::vector<std::string> metrics = asked_metrics(options.metrics);
-  const ComparedFolder a = read_compared_folder(options.a), b = read_compared_folder(options.b);
+  const auto [folder_a, folder_b] = folders(options);
+  const ComparedFolder a = read_compared_folder(folder_a), b = read_compared_folder(folder_b);
   const PairedRows rows = paired(options, a, b);
   check_measured(rows, options.metrics);
   for (const ComparedFolder* folder : {&a, &b})
@@ -96,7 +119,9 @@ int compare(const CompareArguments& options) {
 Command add_compare(CommandLine& program) {
   const auto options = std::make_shared<CompareArguments>();
   CommandLine line = program.add_command("compare", "Says whether B is better or worse than A, run by run");
-  line.option("A", options->a, "before: run directory or folder of a sweep").takes("DIR").required();
+  line.option("A", options->a, "before: run directory, folder of a sweep, or with --on a plumbline program")
+      .takes("DIR")
+      .required();
   line.option("B", options->b, "after: the same of what is to be judged").takes("DIR").required();
   line.option("--metric", options->metrics, "metric to compare, in place of the usual ones; may be repeated")
       .takes("METRIC")
@@ -106,11 +131,21 @@ Command add_compare(CommandLine& program) {
               "different, anything that is not the same; or never")
       .one_of({"worse", "different", "never"})
       .shows_default();
+  const Argument on =
+      line.option("--on", options->on, "sweep file that the programs A and B run, into OUT/a and OUT/b").takes("SWEEP");
+  line.option("-o,--out", options->out, "with --on: folder of both sweeps, new or to be resumed")
+      .takes("DIR")
+      .needs(on);
+  line.option("--seeds", options->seeds, "with --on: number of seeds, in place of the file's")
+      .range(1, 100000)
+      .needs(on);
+  line.option("--jobs", options->jobs, "with --on: runs at a time [the CPUs allowed]").range(1, 1024).needs(on);
   line.flag("--json", options->json, "prints all numbers as JSON");
   line.footer(
       "Runs are paired by scenario, variant, start, seed and method.\n"
       "Example: plumbline compare sweeps/before sweeps/after\n"
       "         plumbline compare runs/before runs/after --metric map_rmse_m,walls.recall --fail-on different\n"
+      "         plumbline compare old/plumbline new/plumbline --on look.yaml -o sweeps/change\n"
       "Exit code 1 when B is worse");
   return {line, [options] { return compare(*options); }};
 }

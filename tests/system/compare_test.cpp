@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "bim/config/tree.h"
@@ -119,6 +120,44 @@ TEST_F(CompareSweeps, AnAlteredRunIsTold) {
   EXPECT_NE(outcome.err.find("altered: results.json was altered"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("scores: other in 1 pair with equal digests"), std::string::npos) << outcome.out;
   EXPECT_TRUE(last_line(outcome.out).ends_with("; failures only in B: 1\n")) << outcome.out;
+}
+
+/// A program of another name that does what ours does.
+std::string wrapper(const Folder& folder, const std::string& name, const std::string& command) {
+  write_file(folder / name, "#!/bin/sh\n" + command + "\n");
+  fs::permissions(folder / name, fs::perms::owner_all);
+  return "./" + name;
+}
+
+TEST_F(CompareSweeps, TwoProgramsRunTheSweepAndAreCompared) {
+  const std::string ours = "exec '" + std::string(std::getenv("PLUMBLINE_BINARY")) + "' ";
+  const std::string before = wrapper(*folder_, "before", ours + "\"$@\"");
+  // The second one runs the sweep of the poor odometry whatever it is asked for.
+  const std::string after = wrapper(*folder_, "after", ours + "sweep 'of poor/sweep.yaml' -o \"$4\"");
+  const std::vector<std::string> on = {"--on", "of good/sweep.yaml", "-o", "change"};
+  const Outcome same = compare(before, before, {"--on", "of good/sweep.yaml", "-o", "none", "--seeds", "1"});
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(last_line(same.out), "verdict: same, byte for byte\n");
+  const Outcome worse = compare(before, after, on);
+  EXPECT_EQ(worse.code, 1) << worse.err;
+  EXPECT_EQ(worse.out.rfind("A: ./before\nB: ./after\n", 0), 0U) << worse.out;
+  const auto made = fs::last_write_time(*folder_ / "change/b/results/s-1.json");
+  EXPECT_EQ(compare(before, after, on).out, worse.out);
+  EXPECT_EQ(fs::last_write_time(*folder_ / "change/b/results/s-1.json"), made);
+
+  (void)wrapper(*folder_, "after", ours + "sweep 'of poor/sweep.yaml' -o \"$4\" # built anew");
+  expect_refused(compare(before, after, on), "change/b: is of another program; name another -o, or remove change");
+  expect_refused(compare(before, after), "./before: is a program; name by --on the sweep that both are to run");
+  expect_refused(compare(before, after, {"--on", "of good/sweep.yaml"}), "--on: needs -o");
+  expect_refused(compare("poor", "good", on), "poor: is no program");
+  expect_refused(compare("poor", "good", {"-o", "other"}), "--out requires --on");
+  const Outcome missing = compare(before, after, {"--on", "missing.yaml", "-o", "in/other"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("./before: refuses the sweep: missing.yaml: "), std::string::npos) << missing.err;
+  const Outcome no_sweep = compare("/bin/true", after, {"--on", "of good/sweep.yaml", "-o", "in/other"});
+  EXPECT_EQ(no_sweep.code, 2);
+  EXPECT_NE(no_sweep.err.find("/bin/true: made no sweep"), std::string::npos) << no_sweep.err;
+  EXPECT_FALSE(fs::exists(*folder_ / "in"));
 }
 
 TEST_F(CompareSweeps, RefusesWhatItCannotCompare) {
