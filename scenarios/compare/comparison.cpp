@@ -40,7 +40,7 @@ bool can_be_wrong(const RowPair& pair) {
 /// Before anything is known of the tests.
 Finding untested_finding(const Pairs& pairs) {
   if (all_same(pairs)) return Finding::same;
-  return pairs.size() == 1 ? Finding::differs : Finding::not_shown;
+  return pairs.size() == 1 && is_different(*pairs.front()) ? Finding::differs : Finding::not_shown;
 }
 
 ComparedMethod compare_method(const std::string& name, const Pairs& all, const std::vector<std::string>& metrics) {
@@ -48,6 +48,7 @@ ComparedMethod compare_method(const std::string& name, const Pairs& all, const s
   method.name = name;
   method.pairs = all.size();
   method.same = all_same(all);
+  method.different = std::any_of(all.begin(), all.end(), [](const RowPair* pair) { return is_different(*pair); });
   Pairs pairs;
   for (const RowPair* pair : all)
     if (!is_failed(pair->a) && !is_failed(pair->b)) pairs.push_back(pair);
@@ -97,17 +98,18 @@ std::size_t correct_for_number(std::vector<ComparedMethod>& methods) {
 }
 
 Finding overall(const Comparison& comparison) {
-  bool same = true, single = true, better = false, worse = false;
+  bool same = true, single = true, different = false, better = false, worse = false;
   for (const ComparedMethod& method : comparison.methods) {
     same = same && method.same;
     single = single && method.pairs == 1;
+    different = different || method.different;
     for (const ComparedValue& value : method.values) {
       better = better || value.finding == Finding::better;
       worse = worse || value.finding == Finding::worse;
     }
   }
   if (same) return Finding::same;
-  if (single) return Finding::differs;
+  if (single && different) return Finding::differs;
   if (better && worse) return Finding::mixed;
   return better ? Finding::better : worse ? Finding::worse : Finding::not_shown;
 }

@@ -50,6 +50,7 @@ struct ComparedMethod {
   std::size_t pairs = 0;
   std::size_t failed = 0;  ///< of them: the walk failed in A or B, and they are left out
   bool same = false;       ///< in all pairs, byte for byte
+  bool different = false;  ///< in a pair at least; neither where no digest tells
   std::vector<ComparedValue> values;
 };
 

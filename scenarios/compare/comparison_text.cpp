@@ -41,14 +41,16 @@ std::string plural(std::size_t count, const std::string& word) {
 
 /// Why nothing is shown: what would have been.
 std::string not_shown_text(const ComparedValue& value) {
-  if (value.differing() == 0) return "equal in all pairs";
+  if (value.differing() == 0) return value.pairs == 1 ? "equal" : "equal in all pairs";
   const std::string text = to_string(Finding::not_shown);
   if (!value.p_holm)
     return text + ", " + std::to_string(value.differing()) + (value.differing() == 1 ? " differs" : " differ");
   const std::optional<double> detectable = value.detectable();
   if (!detectable) return text;
-  const bool ratio = value.change == Change::ratio;
-  return text + ", detectable: " + formatted("%.2g", ratio ? 100.0 * *detectable : *detectable) + (ratio ? " %" : "");
+  if (value.change == Change::difference) return text + ", detectable: " + formatted("%.2g", *detectable);
+  return text + ", detectable: " +
+         (*detectable < 1.0 ? formatted("%.2g", 100.0 * *detectable) + " %"
+                            : formatted("%.2g", 1.0 + *detectable) + " times");
 }
 
 std::string finding_text(const ComparedValue& value) {
@@ -160,6 +162,11 @@ std::string names_of(const Comparison& comparison, Finding finding) {
   return names;
 }
 
+bool is_any_different(const Comparison& comparison) {
+  return std::any_of(comparison.methods.begin(), comparison.methods.end(),
+                     [](const ComparedMethod& method) { return method.different; });
+}
+
 std::string verdict_text(const Comparison& comparison) {
   std::string text = "verdict: " + to_string(comparison.finding);
   const std::string better = names_of(comparison, Finding::better), worse = names_of(comparison, Finding::worse);
@@ -169,6 +176,8 @@ std::string verdict_text(const Comparison& comparison) {
   if (comparison.finding == Finding::differs) text += "; a single pair shows no more";
   if (comparison.tests > 0)
     text += " (" + plural(comparison.tests, "test") + " at 5 % in all" + (comparison.tests > 1 ? ", Holm)" : ")");
+  else if (comparison.finding == Finding::not_shown && !is_any_different(comparison))
+    text += " (all scores are equal; no digest tells whether all else is)";
   else if (comparison.finding == Finding::not_shown)
     text += " (no test: no value differs in 6 pairs or more)";
   if (!comparison.failures_b.empty()) text += "; failures only in B: " + std::to_string(comparison.failures_b.size());

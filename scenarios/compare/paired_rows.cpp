@@ -45,6 +45,13 @@ bool is_same(const RowPair& pair) {
   return !a.method_digest.empty() && a.method_digest == b.method_digest;
 }
 
+bool is_different(const RowPair& pair) {
+  const auto& [a, b] = pair;
+  if (is_failed(a) || is_failed(b)) return !is_same(pair);
+  const bool digests = !a.method_digest.empty() && !b.method_digest.empty() && a.method_digest != b.method_digest;
+  return digests || a.verdict != b.verdict || a.values != b.values || !same_sensor_data(pair).value_or(true);
+}
+
 bool is_right(const SweepRow& row) {
   return row.verdict == "complete" || row.verdict == "success" || row.verdict == "honest_ambiguity";
 }

@@ -32,6 +32,8 @@ struct PairedRows {
 [[nodiscard]] std::optional<bool> same_sensor_data(const RowPair& pair);
 /// Whether the method did the same, byte for byte, and is scored the same.
 [[nodiscard]] bool is_same(const RowPair& pair);
+/// Whether a score, the sensor data or a digest of the method is known to differ. Neither where no digest tells.
+[[nodiscard]] bool is_different(const RowPair& pair);
 
 /// The verdict is complete, success, or honest_ambiguity where the pose is not identifiable.
 [[nodiscard]] bool is_right(const SweepRow& row);

@@ -70,6 +70,17 @@ TEST(Comparison, ASinglePairOnlyDiffers) {
   EXPECT_FALSE(ate.interval);
 }
 
+// As of a run directory whose outside trajectory has no stages: equal scores are no proof that all is the same.
+TEST(Comparison, EqualScoresWithoutDigestsAreNeitherTheSameNorOther) {
+  Rows rows = slam_rows({1});
+  rows.front().method_digest.clear();
+  EXPECT_EQ(compared(rows, rows).finding, Finding::not_shown);
+  Rows other = slam_rows({1});
+  other.front().method_digest = "of another version";
+  EXPECT_EQ(compared(slam_rows({1}), other).finding, Finding::differs);
+  EXPECT_EQ(value_of(compared(slam_rows({1}), other), "ate_aligned_rmse_m").equal, 1U);
+}
+
 TEST(Comparison, WhatDidNotConvergeIsInfinitelyWorse) {
   Rows a, b;
   for (int seed = 1; seed <= 8; ++seed) {

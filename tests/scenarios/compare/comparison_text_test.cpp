@@ -56,6 +56,14 @@ TEST(ComparisonText, SaysWhatPairsCouldHaveShown) {
       text_of(compared(slam_rows({1, 1, 1, 1, 1, 1, 1, 1}), slam_rows({1.1, 0.9, 1.1, 0.9, 1.1, 0.9, 1.1, 0.9})));
   EXPECT_NE(text.find("no difference shown, detectable: 11 %\n"), std::string::npos) << text;
   EXPECT_NE(text.find("verdict: no difference shown (1 test at 5 % in all)\n"), std::string::npos) << text;
+  const std::string wide = text_of(compared(slam_rows({1, 1, 1, 1, 1, 1}), slam_rows({9, .1, 8, .1, 9, .1})));
+  EXPECT_NE(wide.find("no difference shown, detectable: 9.5 times\n"), std::string::npos) << wide;
+  Rows unknown = slam_rows({1});
+  unknown.front().method_digest.clear();
+  const std::string equal = text_of(compared(unknown, unknown));
+  EXPECT_TRUE(
+      equal.ends_with("verdict: no difference shown (all scores are equal; no digest tells whether all else is)\n"))
+      << equal;
   const std::string few = text_of(compared(slam_rows({1, 1}), slam_rows({1, 2})));
   EXPECT_NE(few.find("no difference shown, 1 differs\n"), std::string::npos) << few;
   EXPECT_NE(few.find("(no test: no value differs in 6 pairs or more)\n"), std::string::npos) << few;
