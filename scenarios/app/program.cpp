@@ -90,6 +90,7 @@ std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table)
           add_report(program),
           add_replay(program, table),
           add_diff(program),
+          add_compare(program),
           add_methods(program, table),
           add_scenarios(program),
           add_bench(program),

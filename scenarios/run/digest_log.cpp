@@ -47,6 +47,17 @@ std::uint64_t digest_of(const DigestLog& log) {
   return digest.value();
 }
 
+std::map<std::string, std::uint64_t> digests_by_part(const DigestLog& log) {
+  std::map<std::string, DigestLog> parts;
+  for (const DigestEntry& entry : log) {
+    const std::size_t slash = entry.stage.find('/');
+    parts[slash == std::string::npos ? std::string(sensor_part) : entry.stage.substr(0, slash)].push_back(entry);
+  }
+  std::map<std::string, std::uint64_t> digests;
+  for (const auto& [part, entries] : parts) digests[part] = digest_of(entries);
+  return digests;
+}
+
 std::string write_digests(const DigestLog& log) {
   std::string text = std::string(header) + "\n";
   for (const DigestEntry& entry : log)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,11 @@ using DigestLog = std::vector<DigestEntry>;
 [[nodiscard]] DigestLog merge_logs(const std::vector<DigestLog>& logs);
 /// Digest of the whole log.
 [[nodiscard]] std::uint64_t digest_of(const DigestLog& log);
+
+/// Part of the sensor data among those of digests_by_part().
+inline constexpr std::string_view sensor_part = "sim";
+/// Digest of what each part of a run left: of the sensor data, of all stages of each method.
+[[nodiscard]] std::map<std::string, std::uint64_t> digests_by_part(const DigestLog& log);
 
 /// digests.csv: "tick_ns,stage,digest" and a line an entry.
 [[nodiscard]] std::string write_digests(const DigestLog& log);

@@ -26,14 +26,14 @@ namespace {
 constexpr int could_not_start = 127;
 
 /// In the child: nothing here may allocate.
-[[noreturn]] void become(char* const* argv, int log, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* argv, int log, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(could_not_start);
   const int nowhere = ::open("/dev/null", O_RDWR);
   ::dup2(nowhere, STDIN_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(log, STDERR_FILENO);
-  ::execv("/proc/self/exe", argv);
+  ::execv(program, argv);
   ::_exit(could_not_start);
 }
 
@@ -68,7 +68,7 @@ class Running {
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  void start(std::size_t index, std::vector<std::string> arguments) {
+  void start(const std::string& program, std::size_t index, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "plumbline");
     std::vector<char*> argv;
     for (std::string& text : arguments) argv.push_back(text.data());
@@ -77,7 +77,7 @@ class Running {
     if (log < 0) throw EnvironmentError(std::string("sweep: no memory for a run's messages: ") + std::strerror(errno));
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child == 0) become(argv.data(), log, parent);
+    if (child == 0) become(program.c_str(), argv.data(), log, parent);
     const int failure = errno;
     if (child < 0) {
       ::close(log);
@@ -116,18 +116,20 @@ class Running {
 }  // namespace
 
 void run_children(std::size_t count, int jobs, const std::function<std::vector<std::string>(std::size_t)>& arguments,
-                  const std::function<void(std::size_t, const ChildEnd&)>& ended) {
+                  const std::function<void(std::size_t, const ChildEnd&)>& ended, const std::string& program) {
   Running running;
   std::size_t next = 0;
   while (next < count || running.size() > 0) {
     check_interrupt();
     if (next < count && running.size() < static_cast<std::size_t>(std::max(jobs, 1))) {
-      running.start(next, arguments(next));
+      running.start(program, next, arguments(next));
       ++next;
       continue;
     }
     const auto [index, end] = running.wait();
-    if (end.code == could_not_start) throw EnvironmentError("sweep: this program cannot start itself");
+    if (end.code == could_not_start)
+      throw EnvironmentError(program == this_program ? "sweep: this program cannot start itself"
+                                                     : program + ": cannot be started");
     ended(index, end);
   }
 }

@@ -13,11 +13,15 @@ struct ChildEnd {
   std::string last_line;
 };
 
-/// Runs this program `count` times, at most `jobs` at a time: `arguments(i)` are those of child i, and `ended(i, end)`
-/// is called on this thread for each that ended, in no order. What they write to stderr is kept in memory, so that a
-/// full disk has no say in it. No child outlives this process. Throws what `ended` throws, Interrupted and
-/// EnvironmentError, after all children have been stopped. Call while the process has one thread.
+/// What run_children() starts where no other program is named.
+inline constexpr const char* this_program = "/proc/self/exe";
+
+/// Runs this program, or another one, `count` times, at most `jobs` at a time: `arguments(i)` are those of child i, and
+/// `ended(i, end)` is called on this thread for each that ended, in no order. What they write to stderr is kept in
+/// memory, so that a full disk has no say in it. No child outlives this process. Throws what `ended` throws,
+/// Interrupted and EnvironmentError, after all children have been stopped. Call while the process has one thread.
 void run_children(std::size_t count, int jobs, const std::function<std::vector<std::string>(std::size_t)>& arguments,
-                  const std::function<void(std::size_t, const ChildEnd&)>& ended);
+                  const std::function<void(std::size_t, const ChildEnd&)>& ended,
+                  const std::string& program = this_program);
 
 }  // namespace plumbline::scenarios

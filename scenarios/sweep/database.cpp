@@ -65,14 +65,17 @@ Value value_of(const std::optional<double>& number) { return number ? Value(*num
 void write_tables(Database& database, const std::vector<SweepRow>& rows, const std::vector<SweepCell>& cells) {
   std::string columns =
       "scenario TEXT, variant TEXT, start TEXT, seed TEXT, method TEXT, verdict TEXT, digest TEXT, identifiable "
-      "INTEGER, evidence TEXT, failure TEXT";
+      "INTEGER, evidence TEXT, failure TEXT, sensor_digest TEXT, method_digest TEXT";
   for (const score::MetricRow& metric : score::metrics()) columns += ", \"" + std::string(metric.name) + "\" REAL";
   database.run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN; CREATE TABLE runs (" + columns + ")");
   for (const SweepRow& row : rows) {
     std::vector<Value> values = {
-        row.scenario, row.variant, row.start,  row.seed,
-        row.method,   row.verdict, row.digest, row.identifiable ? Value(static_cast<int>(*row.identifiable)) : Value(),
-        row.evidence, row.failure};
+        row.scenario,      row.variant,
+        row.start,         row.seed,
+        row.method,        row.verdict,
+        row.digest,        row.identifiable ? Value(static_cast<int>(*row.identifiable)) : Value(),
+        row.evidence,      row.failure,
+        row.sensor_digest, row.method_digest};
     for (const auto& value : row.values) values.push_back(value_of(value));
     database.insert("runs", values);
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bim/digest/digest.h"
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
@@ -49,6 +50,9 @@ class SharedRun {
     fs::create_directory(dir_, error);
     if (error) throw EnvironmentError(dir_ + ": cannot be created: " + error.message());
     const FinishedRun run = finished_run(resolved_, std::move(simulated));
+    Tree digests = Tree::map();
+    for (const auto& [part, digest] : digests_by_part(run.record.digests)) digests.set(part, hex64(digest));
+    write_file(dir_ + "/digests.json", write_json(digests) + "\n");
     write_file(dir_ + "/results.json", score::write_results(run, score::score_run(run)));
   }
 

@@ -58,15 +58,17 @@ bool is_made(const std::string& path, const SweepRun& run) {
   }
 }
 
-/// What is kept of a run. `results`: its results.json, or nothing where the scenario failed.
-Tree result_of(const SweepRun& run, const std::optional<Tree>& results, const std::vector<std::string>& methods,
-               const std::string& failure) {
+/// What is kept of a run. `results`: its results.json, or nothing where the scenario failed; `digests`: of its parts.
+Tree result_of(const SweepRun& run, const std::optional<Tree>& results, const std::optional<Tree>& digests,
+               const std::vector<std::string>& methods, const std::string& failure) {
   Tree tree = Tree::map();
   tree.set("input", run.input_digest).set("scenario", run.scenario).set("variant", run.variant).set("start", run.start);
   tree.set("seed", std::to_string(run.seed));
   if (results && results->find("failure") == nullptr) {
-    tree.set("digest", *results->find("digest")).set("duration_s", *results->find("duration_s"));
-    tree.set("distance_m", *results->find("distance_m")).set("methods", *results->find("methods"));
+    tree.set("digest", *results->find("digest"));
+    if (digests) tree.set("digests", *digests);
+    tree.set("duration_s", *results->find("duration_s")).set("distance_m", *results->find("distance_m"));
+    tree.set("methods", *results->find("methods"));
     const Tree* walk = results->find("walk");
     const Tree* warnings = walk == nullptr ? nullptr : walk->find("warnings");
     if (warnings != nullptr) tree.set("warnings", *warnings);
@@ -101,10 +103,12 @@ void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, co
   constexpr int scenario_failed = 4;
   if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
     throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.last_line);
-  const std::string file = folder.work() + "/" + run.key + "/results.json";
-  std::optional<Tree> results;
-  if (fs::exists(file)) results = read_json(read_text_file(file), file);
-  write_file(folder.result(run), write_json(result_of(run, results, methods_of(sweep, run), end.last_line)) + "\n");
+  const auto left = [&](const char* name) -> std::optional<Tree> {
+    const std::string file = folder.work() + "/" + run.key + "/" + name;
+    return fs::exists(file) ? std::optional(read_json(read_text_file(file), file)) : std::nullopt;
+  };
+  const Tree result = result_of(run, left("results.json"), left("digests.json"), methods_of(sweep, run), end.last_line);
+  write_file(folder.result(run), write_json(result) + "\n");
   std::error_code error;
   fs::remove_all(folder.work() + "/" + run.key, error);
 }
@@ -114,7 +118,7 @@ void keep_refusals(const Sweep& sweep, const SweepFolder& folder, const std::vec
   if (!refusals.empty() && refusals.size() == sweep.runs.size()) throw error_of(refusals.front());
   for (const Refusal& refusal : refusals)
     write_file(folder.result(*refusal.run),
-               write_json(result_of(*refusal.run, std::nullopt, methods_of(sweep, *refusal.run),
+               write_json(result_of(*refusal.run, std::nullopt, std::nullopt, methods_of(sweep, *refusal.run),
                                     std::string(refused_mark) + refusal.reason)) +
                    "\n");
 }

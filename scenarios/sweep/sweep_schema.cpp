@@ -20,7 +20,8 @@ SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from 
 - Groups of such runs are processes of their own, `--jobs` at a time.
 - Each run leaves one file in `results/`, complete or not at all. A run is not repeated while scenario, building, seed
   and program are those of its file. A sweep that was interrupted therefore continues.
-- `runs.csv` has a row for each run and method, with the cause of a failure. `table.txt`, `table.csv` and `table.html`
+- `runs.csv` has a row for each run and method, with the cause of a failure and the digests of run, sensor data and
+  method; `compare` reads it. `table.txt`, `table.csv` and `table.html`
   have a row for each scenario, variant, start and method over all seeds. `sweep.sqlite` holds both. In the `.csv` files an
   apostrophe stands before a word that a spreadsheet would take for a formula.
 - No result depends on `--jobs` or on interruptions.

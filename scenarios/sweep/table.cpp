@@ -14,6 +14,7 @@
 #include "bim/median.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/report/svg.h"
+#include "scenarios/run/digest_log.h"
 
 namespace plumbline::scenarios {
 
@@ -186,6 +187,8 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
   common.seed = text_at(result, "seed");
   common.digest = text_at(result, "digest");
   common.failure = text_at(result, "failure");
+  const Tree* digests = result.find("digests");
+  if (digests != nullptr) common.sensor_digest = text_at(*digests, sensor_part);
   common.values.resize(score::metrics().size());
   if (const Tree* warnings = result.find("warnings"))
     for (const Tree& warning : warnings->as_list()) common.warnings.push_back(warning.as_string());
@@ -196,6 +199,7 @@ std::vector<SweepRow> rows_of(const Tree& result, const std::string& file) {
     SweepRow row = common;
     row.method = name;
     row.verdict = text_at(scores, "verdict");
+    if (digests != nullptr) row.method_digest = text_at(*digests, name);
     if (const Tree* known = find_path(scores, "localization.identifiable")) row.identifiable = known->as_bool();
     if (const Tree* evidence = find_path(scores, "localization.evidence")) row.evidence = evidence->as_string();
     if (const Tree* failure = find_path(scores, "localization.failure")) row.failure = failure->as_string();
@@ -288,14 +292,15 @@ std::vector<SweepCell> cells_of(std::vector<SweepRow> rows) {
 }
 
 std::string runs_csv(const std::vector<SweepRow>& rows) {
-  Line head = {"scenario", "variant", "start",        "seed",     "method",
-               "verdict",  "digest",  "identifiable", "evidence", "failure"};
+  Line head = {"scenario", "variant",      "start",    "seed",    "method",        "verdict",
+               "digest",   "identifiable", "evidence", "failure", "sensor_digest", "method_digest"};
   for (const score::MetricRow& metric : score::metrics()) head.emplace_back(metric.name);
   std::string text = csv_line(head);
   for (const SweepRow& row : rows) {
-    Line line = {row.scenario, row.variant, row.start,  row.seed,
-                 row.method,   row.verdict, row.digest, row.identifiable ? (*row.identifiable ? "true" : "false") : "",
-                 row.evidence, row.failure};
+    Line line = {
+        row.scenario, row.variant, row.start,         row.seed,
+        row.method,   row.verdict, row.digest,        row.identifiable ? (*row.identifiable ? "true" : "false") : "",
+        row.evidence, row.failure, row.sensor_digest, row.method_digest};
     for (const auto& value : row.values) line.push_back(value ? format_number(*value) : "");
     text += csv_line(line);
   }

@@ -26,6 +26,8 @@ struct SweepRow {
   std::vector<std::optional<double>> values;  ///< by score::metrics()
   std::string key = {};                       ///< of the run's files
   std::vector<std::string> warnings = {};     ///< of its walk
+  std::string sensor_digest = {};             ///< of its sensor data; empty where it is not known
+  std::string method_digest = {};             ///< of all stages of the method; empty where it is not known
 };
 
 /// Begins the failure of a run whose scenario is no input that can be run.
