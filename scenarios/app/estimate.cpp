@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "bim/config/printable.h"
 #include "bim/config/schema.h"
 #include "bim/errors.h"
+#include "bim/model/rooms.h"
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
@@ -37,6 +37,7 @@
 #include "scenarios/run/run_pipeline.h"
 #include "scenarios/run/timings.h"
 #include "scenarios/spec/method_names.h"
+#include "scenarios/spec/named_places.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/spec/run_site.h"
 #include "slam/io/recordings/recording.h"
@@ -60,8 +61,7 @@ struct EstimateArguments {
   std::uint64_t seed = 1;
   double yaw_deg = 0.0;
   std::string storey;
-  bool force = false;
-  bool unchecked = false;
+  bool force = false, unchecked = false;
   std::optional<Argument> seed_option;
   std::optional<Argument> yaw_option;
   std::optional<Argument> furniture_option;
@@ -91,21 +91,33 @@ Scenario scenario_of(const std::string& recording) {
   return fs::exists(path) ? read_scenario(read_text_file(path), path).scenario : Scenario();
 }
 
-using PlanAndMove = std::pair<std::shared_ptr<const bim::Plan>, std::optional<Eigen::Vector3d>>;
+struct LoadedPlan {
+  std::shared_ptr<const bim::Plan> plan;
+  std::optional<Eigen::Vector3d> moved_by;  ///< see bim::Building
+  std::optional<std::string> storey;        ///< that of the prior, as the plan calls it
+};
 
-/// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says, and how far it was
-/// moved, see bim::Building.
-PlanAndMove load_plan(const EstimateArguments& options, const slam::MethodRow& row, const bim::BuildingOptions& taken) {
+/// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says. The storey that
+/// --storey or else the recording names may be given by its name or its id.
+LoadedPlan load_plan(const EstimateArguments& options, const slam::MethodRow& row, const slam::RecordingInfo& info) {
   if (!row.needs_plan) return {};
   if (options.plan.empty())
     throw InputError({"--plan", 0, 0}, "is required: method '" + options.method + "' localizes in a plan");
   Scenario scenario = scenario_of(options.input.recording);
-  scenario.building_options = taken;
+  scenario.building_options = info.plan;
   scenario.world = {};
   const bool none = options.furniture_option->given() ? options.plan_furniture == names_of(ToldFurniture{}).front()
                                                       : scenario.plan.furniture == ToldFurniture::none;
   const RunBuilding building(load_site(options.plan, scenario), none ? ToldFurniture::none : ToldFurniture::as_planned);
-  return {building.plan_as_planned(), building.as_planned().moved_by};
+  const auto plan = std::make_shared<bim::Plan>(*building.plan_as_planned());
+  for (bim::PlanRoom& room : plan->rooms) room.name = bim::room_name(building.as_planned().rooms, room.name);
+  LoadedPlan loaded{plan, building.as_planned().moved_by, {}};
+  const std::optional<std::string> named =
+      options.storey.empty() ? slam::prior_of(info).storey : std::optional(options.storey);
+  if (!named) return loaded;
+  const int storey = find_storey(building.as_planned(), *named, {"--storey", 0, 0});
+  loaded.storey = loaded.plan->storeys[static_cast<std::size_t>(storey)].name;
+  return loaded;
 }
 
 /// What only localization takes is refused elsewhere: who gives it expects poses in the plan.
@@ -132,17 +144,11 @@ void check_rooms(const EstimateArguments& options, const bim::Plan& plan, const 
 }
 
 /// The prior of the recording, with that of the command line over it.
-slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const bim::Plan& plan) {
+slam::Prior make_prior(const EstimateArguments& options, const slam::RecordingInfo& info, const LoadedPlan& loaded) {
   slam::Prior prior = slam::prior_of(info);
   if (options.yaw_option->given()) prior.yaw_W = wrap_angle(options.yaw_deg * std::numbers::pi / 180.0);
-  if (!options.storey.empty()) prior.storey = options.storey;
-  if (!prior.storey) return prior;
-  std::vector<std::string> names;
-  for (const bim::PlanStorey& storey : plan.storeys) names.push_back(storey.name);
-  if (std::find(names.begin(), names.end(), *prior.storey) != names.end()) return prior;
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  throw InputError({"--storey", 0, 0}, "the plan has no storey '" + *prior.storey + "'; it has " + list);
+  prior.storey = loaded.storey;
+  return prior;
 }
 
 /// Every value of the method's config: those of --config over the defaults.
@@ -156,7 +162,7 @@ std::uint64_t run_seed(const EstimateArguments& options, const slam::RecordingIn
   return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
 }
 
-/// moved_by: see load_plan().
+/// moved_by: see LoadedPlan.
 slam::MethodInput make_input(const EstimateArguments& options, const slam::MethodRow& row,
                              const slam::Recording& recording, std::optional<Eigen::Vector3d>& moved_by) {
   const slam::RecordingInfo& info = recording.info();
@@ -168,9 +174,11 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
                                                           "' needs; vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), seed_name(row));
   input.calibration = slam::calibration_of(info);
-  std::tie(input.plan, moved_by) = load_plan(options, row, info.plan);
+  const LoadedPlan loaded = load_plan(options, row, info);
+  input.plan = loaded.plan;
+  moved_by = loaded.moved_by;
   if (input.plan) {
-    input.prior = make_prior(options, info, *input.plan);
+    input.prior = make_prior(options, info, loaded);
     check_rooms(options, *input.plan, input.prior);
   }
   return input;
@@ -278,15 +286,6 @@ std::optional<ProcessTable> take_process(EstimateArguments& options, slam::Metho
   return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});
 }
 
-/// Height of the LiDAR above the floor by the first scans.
-std::optional<double> measured_height(const EstimateArguments& options, const slam::MethodInput& input) {
-  constexpr std::size_t enough = 10;
-  const std::unique_ptr<slam::Recording> again = poorer(open_any_recording(options.input), options.poverty.value());
-  std::vector<slam::Scan> scans;
-  for (slam::SensorFrame frame; scans.size() < enough && again->next(frame);) scans.push_back(std::move(frame.scan));
-  return slam::height_over_floor(scans, input.calibration, input.seed);
-}
-
 int estimate(EstimateArguments options, slam::MethodTable table) {
   const double start_s = slam::wall_s();
   const std::optional<ProcessTable> own = take_process(options, table);
@@ -306,8 +305,16 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
                "its coordinates are those of a map; poses are in W, to which it is moved by " +
                flow_text(number_list(*moved_by)) + " m");
   const bool is_height_said = recording->info().mount.height_m.has_value();
-  const std::optional<double> height = is_height_said ? std::nullopt : measured_height(options, input);
+  const std::optional<double> height =
+      is_height_said
+          ? std::nullopt
+          : slam::height_over_floor(*poorer(open_any_recording(options.input), poverty), input.calibration, input.seed);
   if (height) input.calibration.sensor_height_m = *height;
+  if (!is_height_said && !height)
+    print_note("plumbline: warning: " + options.input.recording +
+               ": no scan of the first half minute shows a floor: the LiDAR is taken to be " +
+               format_number(input.calibration.sensor_height_m) +
+               " m above it, as that of the simulated robot; --description gives the height");
 
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
@@ -331,7 +338,8 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   print(words_of(recording->taken(), answer.scans, recording->has_odometry()) + "\n");
   if (!is_height_said)
     std::printf("LiDAR %.2f m above the floor, %s; --description gives it\n", input.calibration.sensor_height_m,
-                height ? "by the first scans" : "as of the simulated robot, since the first scans show no floor");
+                height ? "by the first scans that show it"
+                       : "as of the simulated robot, since the scans of half a minute show no floor");
   print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
   if (record.lost_scans > 0) std::printf("LOST at %d of %d scans\n", record.lost_scans, record.scans);
   if (!record.beliefs.empty())

@@ -23,6 +23,7 @@
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
+#include "scenarios/report/svg.h"
 #include "scenarios/run/run_files.h"
 #include "slam/io/bags/bag.h"
 #include "slam/io/bags/bag_poses.h"
@@ -152,10 +153,10 @@ std::string line_of(const char* name, const TrajectoryScores& scores) {
 
 /// Of a method whose error was more than a metre.
 std::string words_of(const score::Silence& silence) {
-  std::string text = "off by more than a metre after " + format_number(*silence.off_at_s) + " s, ";
+  std::string text = "off by more than a metre after " + svg::number(*silence.off_at_s, 1) + " s, ";
   if (!silence.said_after_s) return text + "and never said so";
-  return text + "said so " + format_number(*silence.said_after_s) + " s later; off and silent for " +
-         format_number(silence.silent_s) + " s at a time";
+  return text + "said so " + svg::number(*silence.said_after_s, 1) + " s later; off and silent for " +
+         svg::number(silence.silent_s, 1) + " s at a time";
 }
 
 /// What gates may name, whether this estimate has it or not.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bim/digest/digest.h"
+#include "slam/localization/alternatives.h"
 #include "slam/localization/associate.h"
 #include "slam/localization/observed_walls.h"
 #include "slam/localization/wall_crossing.h"
@@ -20,9 +20,20 @@ namespace {
 /// A gait changes the sensor's height by 3 cm. A floor that is nearer than this is wrong by no more.
 constexpr double other_floor_m = 0.1;
 
-bool has_floors_at_several_levels(const PlanIndex& index) {
-  return std::any_of(index.storeys.begin(), index.storeys.end(),
-                     [](const StoreyIndex& storey) { return storey.floors.has_value(); });
+/// How far below the floor that the calibration lets expect the robot's own may lie. From a landing the floor of the
+/// storey is seen; a LiDAR under a ceiling is no higher above its floor than that.
+double floor_tolerance_m(const bim::Plan& plan, const PlanIndex& index, const Calibration& calibration) {
+  const bool at_several_levels = std::any_of(index.storeys.begin(), index.storeys.end(),
+                                             [](const StoreyIndex& storey) { return storey.floors.has_value(); });
+  if (at_several_levels) return other_floor_m;
+  double highest_m = 0.0;
+  for (const bim::PlanStorey& storey : plan.storeys) highest_m = std::max(highest_m, storey.height_m);
+  return std::max(highest_m - calibration.sensor_height_m, other_floor_m);
+}
+
+bool has_room(const bim::Plan& plan, int storey) {
+  return std::any_of(plan.rooms.begin(), plan.rooms.end(),
+                     [&](const bim::PlanRoom& room) { return room.storey == storey; });
 }
 
 std::uint64_t digest_of(const LocalizationScan& scan) {
@@ -35,13 +46,6 @@ std::uint64_t digest_of(const LocalizationScan& scan) {
   return digest.value();
 }
 
-HypothesisSet monitor_hypotheses(const LocalizationConfig& config) {
-  HypothesisConfig hypotheses = config.search.hypotheses;
-  hypotheses.history = config.monitor.scans;
-  hypotheses.drop_ratio = config.monitor.drop_ratio;
-  return {hypotheses, config.search.refine, config.search.likelihood, config.search.comparison};
-}
-
 PlanMethodConfig plan_config(const LocalizationConfig& config) {
   return {config, config.search.convergence.yaw_drift, config.index, config.update_s, true, true};
 }
@@ -52,8 +56,9 @@ class SGraphLocalization final : public PlanLocalization {
       : PlanLocalization("s_graph_localization", input, plan_config(config), config.map),
         config_(config),
         global_localizer_(config.search, input.seed),
-        monitor_(monitor_hypotheses(config)) {
+        alternatives_(config) {
     config_.scan.max_height_m = wall_height(*input.plan, config.scan);
+    floor_tolerance_m_ = floor_tolerance_m(*input.plan, index(), input.calibration);
   }
 
   [[nodiscard]] Estimate finish() override;
@@ -76,10 +81,10 @@ class SGraphLocalization final : public PlanLocalization {
   void start_tracking(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
   void follow_storey();
   void check_kidnap(const LocalizationScan& scan);
+  void search_anew();
   [[nodiscard]] bool is_on_floor() const;
-  [[nodiscard]] bool has_better_alternative(const LocalizationScan& scan);
+  [[nodiscard]] StoreyPose tracked_pose(const LocalizationScan& scan) const;
   void correct_by_beams(const LocalizationScan& scan);
-  [[nodiscard]] bool is_tracked(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const;
   [[nodiscard]] StartPrior start_prior(const PlanScan& scan) const;
   [[nodiscard]] Pose pose_in_I(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const;
   [[nodiscard]] std::vector<std::vector<WallMatch>> match_walls(const LocalizationScan& scan,
@@ -88,6 +93,7 @@ class SGraphLocalization final : public PlanLocalization {
   void record_tracked_poses(const std::vector<TrackedPose>& poses);
 
   LocalizationConfig config_;
+  double floor_tolerance_m_ = 0.0;
   GlobalLocalizer global_localizer_;
   std::optional<PlanTracker> tracker_;
   State state_ = State::searching;
@@ -97,8 +103,7 @@ class SGraphLocalization final : public PlanLocalization {
   double misfit_ = 0.0;                     ///< of the tracked pose, see KidnapMonitorConfig
   int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
   std::optional<ExpectedYaw> doubted_yaw_;  ///< of the present scan: the robot may have been kidnapped and turned
-  HypothesisSet monitor_;                   ///< of the last scans; hypotheses only while a check runs
-  double since_check_m_ = 0.0;
+  Alternatives alternatives_;
   RoomExit room_exit_;
   Agreement agreement_;            ///< of the tracked hypothesis, moving average over scans
   std::optional<Pose> X_IO_last_;  ///< of the last tracking, also after it was lost
@@ -109,11 +114,15 @@ class SGraphLocalization final : public PlanLocalization {
 void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
   doubted_yaw_.reset();
-  doubts_place_ |= scan.after_silence;
+  doubts_place_ |= scan.silence_s > 0.0;
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const auto [planes, localization_scan] = observe(scan, stopwatch, output);
   if (!tracker_)
     localize(localization_scan, start_prior(scan), planes, output);  // particles to X_WO [shaheer2023, eq. 4-10]
+  else if (scan.silence_s > config_.monitor.carried_s &&
+           alternatives_.may_stand_elsewhere(index(), tracked_pose(localization_scan), localization_scan,
+                                             global_localizer_))
+    search_anew();
   else
     track(localization_scan, planes, output);  // S-Graph on the plan's walls and rooms [shaheer2023, section 3.4]
   walls_ = match_walls(localization_scan, planes);
@@ -123,9 +132,8 @@ SGraphLocalization::Observed SGraphLocalization::observe(const PlanScan& scan, S
   Observed observed;
   observed.planes = observe_planes(scan.deskewed, config_.planes, config_.ransac_without_rings,
                                    input().seed);  // [shaheer2023, eq. 3]
-  observed.scan = make_localization_scan(
-      scan.deskewed, observed.planes, scan.X_OR, input().calibration, config_.scan,
-      has_floors_at_several_levels(index()) ? other_floor_m : std::numeric_limits<double>::infinity());
+  observed.scan = make_localization_scan(scan.deskewed, observed.planes, scan.X_OR, input().calibration, config_.scan,
+                                         floor_tolerance_m_);
   observed.scan.tilt_sigma = scan.tilt_sigma;
   record_stage("planes", stopwatch, output);
   output.digests.push_back({"planes", digest_of(observed.scan)});
@@ -163,9 +171,8 @@ void SGraphLocalization::start_tracking(const LocalizationScan& scan, const std:
   doubts_place_ = false;
   misfit_ = 0.0;
   storey_ = best.storey;
-  monitor_.clear();
+  alternatives_.clear();
   room_exit_.clear();
-  since_check_m_ = 0.0;
   // Of a recording whose owner did not say how high the LiDAR is, the floor tells.
   const double calibrated = input().calibration.sensor_height_m;
   const bool is_calibrated = std::abs(scan.sensor_height - calibrated) < 0.5 * config_.monitor.off_floor_m;
@@ -205,6 +212,10 @@ void SGraphLocalization::correct_by_beams(const LocalizationScan& scan) {
   tracker_->correct_along(*along, along->dot(refined.X_IH.t - X_IH.t) * information / measured, 1.0 / measured);
 }
 
+StoreyPose SGraphLocalization::tracked_pose(const LocalizationScan& scan) const {
+  return {storey_, heading(tracker_->pose(scan.X_OR)), true};
+}
+
 bool SGraphLocalization::is_on_floor() const {
   return std::abs(tracker_->height_over_floor()) < config_.monitor.off_floor_m;
 }
@@ -215,64 +226,21 @@ void SGraphLocalization::follow_storey() {
   // The plan is compared at the height of a floor, and a history with a gap leads elsewhere.
   failed_updates_ = 0;
   misfit_ = 0.0;
-  monitor_.clear();
+  alternatives_.clear();
   room_exit_.clear();
-  since_check_m_ = 0.0;
   const bim::Plan& plan = *input().plan;
   const double z_W = tracker_->feet_z() + index().X_WI.t.z();
   const Eigen::Vector2d p_W = (index().X_WI * tracker_->window().back().X_IR.t).head<2>();
   for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i) {
-    const bool has_room =
-        std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const bim::PlanRoom& room) { return room.storey == i; });
     const bim::PlanStorey& storey = plan.storeys[static_cast<std::size_t>(i)];
     const double floor_W = storey.floors ? bim::height_at(*storey.floors, p_W) : storey.elevation_m;
-    if (i == tracker_->storey().plan_storey || !has_room || std::abs(z_W - floor_W) >= config_.monitor.off_floor_m)
+    if (i == tracker_->storey().plan_storey || !has_room(plan, i) ||
+        std::abs(z_W - floor_W) >= config_.monitor.off_floor_m)
       continue;
     storey_ = storey_of_plan(i);
     tracker_->change_storey(index().storeys[static_cast<std::size_t>(storey_)]);
     return;
   }
-}
-
-/// True when another hypothesis explains the last scans better at two checks in a row: where a wall of the plan is
-/// missing, many do for a while.
-bool SGraphLocalization::has_better_alternative(const LocalizationScan& scan) {
-  const Pose2 u = heading(X_OR_update()->inverse() * scan.X_OR);
-  monitor_.expect_yaw(doubted_yaw_);
-  monitor_.predict_and_update(index(), u, scan);
-  since_check_m_ += u.t.norm();
-  if (since_check_m_ < config_.monitor.every_m) return false;
-  since_check_m_ = 0.0;
-  const bool confirming = !monitor_.all().empty();
-  if (!confirming) {
-    // Fitted to one scan it may slide to where a row of shelves looks like a wall.
-    monitor_.add(index(), std::vector<StoreyPose>{{storey_, heading(tracker_->pose(scan.X_OR)), true}});
-    const GlobalLocalizerConfig& search = config_.search;
-    monitor_.add(index(),
-                 propose_poses(index(), {}, scan, search.filter.beam_stride, search.likelihood, search.proposals));
-    monitor_.add(index(), global_localizer_.aliases(index(), {storey_, heading(tracker_->pose(scan.X_OR))}, {}, scan));
-  }
-  monitor_.prune_and_normalize();
-  const std::vector<PoseHypothesis>& alternatives = monitor_.all();
-  const auto own = std::find_if(alternatives.begin(), alternatives.end(),
-                                [&](const PoseHypothesis& c) { return is_tracked(c, scan); });
-  // The ratio alone is no proof: among clutter, poses with planned walls in front of much of what is seen beat the
-  // right one.
-  const double penetration_ratio =
-      agreement_.penetration_ratio_other_walls() + config_.monitor.penetration_ratio_margin;
-  const bool worse = std::any_of(alternatives.begin(), alternatives.end(), [&](const PoseHypothesis& c) {
-    const bool likelier = own == alternatives.end() || c.evidence - own->evidence >= config_.monitor.log_ratio;
-    return !is_tracked(c, scan) && likelier && c.agreement.inliers >= agreement_.inliers &&
-           c.agreement.penetration_ratio_other_walls() <= penetration_ratio;
-  });
-  if (!worse || confirming) monitor_.clear_hypotheses();
-  return worse && confirming;
-}
-
-bool SGraphLocalization::is_tracked(const PoseHypothesis& hypothesis, const LocalizationScan& scan) const {
-  const Pose2 X_IH = heading(tracker_->pose(scan.X_OR));
-  return hypothesis.storey == storey_ &&
-         is_near(hypothesis.X_IH, X_IH, config_.search.hypotheses.merge_m, config_.search.hypotheses.merge_rad);
 }
 
 /// Withdraws a convergence when the scans no longer fit the plan there.
@@ -288,10 +256,21 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
       room_exit_.update(tracker_->storey(), X_IH, index().config.body_height_m) >= config_.monitor.outside_updates;
   const bool misfits = failed_updates_ >= lost_updates || misfit_ >= config_.monitor.misfit || has_left;
   if (fit.inliers >= config_.search.hypotheses.fit.inliers_min) doubts_place_ = false;
-  if (!has_better_alternative(scan) && !misfits) return;
-  tracker_.reset();  // with its window, which was refuted
+  const Pose2 u = heading(X_OR_update()->inverse() * scan.X_OR);
+  const bool is_one_better = alternatives_.is_one_better(index(), {tracked_pose(scan), agreement_}, {u, scan},
+                                                         doubted_yaw_, global_localizer_);
+  if (!is_one_better && !misfits) return;
+  search_anew();
+}
+
+/// A robot that is lost may have been carried, by a lift too: the storey it started on is no longer known.
+void SGraphLocalization::search_anew() {
+  tracker_.reset();  // with its window
   global_localizer_.restart();
   state_ = State::lost;
+  const bim::Plan& plan = *input().plan;
+  for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i)
+    if (has_room(plan, i)) static_cast<void>(storey_of_plan(i));
 }
 
 void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& poses) {
@@ -305,11 +284,14 @@ void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& po
 bool SGraphLocalization::start_anew() {
   if (tracker_) {
     record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});
-    tracker_.reset();
     state_ = State::lost;
   }
-  global_localizer_.restart();
-  if (state_ != State::lost) state_ = State::searching;
+  if (state_ == State::lost) {
+    search_anew();
+  } else {
+    global_localizer_.restart();
+    state_ = State::searching;
+  }
   return true;
 }
 

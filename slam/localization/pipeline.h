@@ -27,6 +27,7 @@ struct KidnapMonitorConfig {
   double off_floor_m = 0.3;
   double misfit = 12.0;
   int outside_updates = 4;
+  double carried_s = 5.0;
 
   template <class V>
   void visit(V& v) {
@@ -55,6 +56,12 @@ struct KidnapMonitorConfig {
       Field{.doc = "scans in a row in no room of the plan, after the robot went through a wall, that withdraw a "
                    "convergence",
             .min = 1});
+    // Assumed: in less nobody lifts a robot, carries it to another room and sets it down.
+    v("carried_s", carried_s,
+      Field{.doc = "time without scans and odometry after which a convergence is withdrawn where another pose explains "
+                   "the next scan about as well",
+            .unit = "s",
+            .min = 0});
     v("off_floor_m", off_floor_m,
       Field{.doc = "height over or under a storey's floor from which the robot is on a stair", .min = 0.05});
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bim/geometry/polygon.h"
+#include "slam/planes/level.h"
 
 namespace plumbline::slam {
 
@@ -18,26 +19,33 @@ namespace {
 
 /// Height of R above the floor: by the lowest of the level planes below that hold a tenth of the returns of the
 /// largest, where it is no farther from the calibrated one than given. A table may hold more returns than the floor
-/// beside it, or hide it.
-std::optional<double> height_over_floor(const std::vector<PlaneObservation>& planes, const LocalizationScan& scan,
-                                        double tilt, double calibrated_R, double tolerance_m) {
+/// beside it, or hide it; the ground outdoors lies lower.
+std::optional<double> height_over_floor(const DeskewedScan& raw, const std::vector<PlaneObservation>& planes,
+                                        const LocalizationScan& scan, double tilt, double calibrated_R,
+                                        double tolerance_m) {
   // No gait, crouch or hand lowers a LiDAR as far; seats are 0.4 m high, tables more.
   constexpr double nearest_m = 0.3;
   constexpr double least_share = 0.1;  // assumed
   std::vector<const PlaneObservation*> level;
-  int most = 0;
+  const PlaneObservation* largest = nullptr;
   for (const PlaneObservation& plane : planes) {
     const double lower = plane.plane_R.d - calibrated_R;
     if ((scan.q_HR * plane.plane_R.n).z() < std::cos(tilt) || !scan.is_below(plane.plane_R) || lower > tolerance_m ||
         lower < -std::min(tolerance_m, nearest_m))
       continue;
+    // Assumed: a floor, also that below a landing, is seen in more directions than the ground through windows.
+    constexpr double ground_m = 0.6;  // below the floor of a building at most, where it is not farther than a landing
+    constexpr std::size_t few = SeenDirections().size() / 4;
+    if (lower > nearest_m / 2.0 && lower < ground_m && directions_of(raw, plane.plane_R).count() < few) continue;
     level.push_back(&plane);
-    most = std::max(most, plane.points);
+    if (largest == nullptr || plane.points > largest->points) largest = &plane;
   }
-  std::optional<double> height;
+  const PlaneObservation* floor = largest;
   for (const PlaneObservation* plane : level)
-    if (plane->points >= least_share * most && (!height || plane->plane_R.d > *height)) height = plane->plane_R.d;
-  return height;
+    if (plane->points >= least_share * largest->points && plane->plane_R.d > floor->plane_R.d &&
+        stands_on_lower(raw, plane->plane_R, floor->plane_R))
+      floor = plane;
+  return floor == nullptr ? std::nullopt : std::optional(floor->plane_R.d);
 }
 
 std::optional<Beam> beam_to(const Eigen::Vector3d& p_R, const LocalizationScan& out, const Eigen::Vector3d& sensor_R,
@@ -230,7 +238,7 @@ LocalizationScan make_localization_scan(const DeskewedScan& scan, const std::vec
   out.sensor_R = scan.X_RL.t;
   const double calibrated_R = calibration.sensor_height_m - sensor_H.z();
   out.sensor_height =
-      sensor_H.z() + height_over_floor(planes, out, config.floor_max_tilt_rad, calibrated_R, height_tolerance_m)
+      sensor_H.z() + height_over_floor(scan, planes, out, config.floor_max_tilt_rad, calibrated_R, height_tolerance_m)
                          .value_or(calibrated_R);
   out.beams = pick_beams(scan, out, config);
   out.beam_grid = make_beam_grid(scan, out, config);

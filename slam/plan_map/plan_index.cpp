@@ -270,7 +270,9 @@ PlanIndex make_plan_index(const bim::Plan& plan_W, const std::optional<std::stri
 
 int add_storey(PlanIndex& index, const bim::Plan& plan_W, int plan_storey) {
   const StoreyIndex& first = index.storeys.front();
-  index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, first.structure, first.furniture));
+  // Without one the structure of a storey is its walls.
+  const std::shared_ptr<const Structure> structure = plan_W.structure.triangles.empty() ? nullptr : first.structure;
+  index.storeys.push_back(make_storey(plan_W, plan_storey, index.X_WI, index.config, structure, first.furniture));
   return static_cast<int>(index.storeys.size()) - 1;
 }
 

@@ -66,7 +66,7 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   output.stamp = scan.stamp;
   Stopwatch stopwatch;
   std::optional<DeskewedScan> tracked;
-  const bool after_silence = is_after_silence(scan);
+  const double silence_s = silence_before(scan);
   last_scan_ = scan.stamp;
   if (!start_s_) start_s_ = std::floor(seconds(scan.stamp));  // no odd share of a second, so that little depends on it
   const Pose X_OR = lidar_odometry_ ? track(scan, tracked.emplace()) : follow(scan, tracked);
@@ -75,16 +75,16 @@ Output PlanLocalization::on_scan(const Scan& raw) {
   if (began_anew) {
     X_OR_update_.reset();
     is_start_known_ = false;
-  } else if (after_silence || is_due(X_OR)) {
+  } else if (silence_s > 0.0 || is_due(X_OR)) {
     ++tick_;
-    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, after_silence);
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, silence_s);
     if (cloud_.add(prepared_scan.deskewed, X_OR)) cloud_stamps_.push_back(scan.stamp);
     record_stage("deskew", stopwatch, output);
     use_scan(prepared_scan, output);
     X_OR_update_ = X_OR;
     used_ = scan.stamp;
   } else if (is_due_standing(scan.stamp)) {
-    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, false);
+    const PlanScan prepared_scan = prepare_scan(tracked ? std::move(*tracked) : deskewed(scan), X_OR, 0.0);
     record_stage("deskew", stopwatch, output);
     use_standing_scan(prepared_scan, output);
     used_ = scan.stamp;
@@ -118,9 +118,10 @@ bool PlanLocalization::is_due_standing(Nanoseconds stamp) const {
   return config_.standing_update_s > 0.0 && follows_standing() && seconds(stamp - used_) >= config_.standing_update_s;
 }
 
-bool PlanLocalization::is_after_silence(const Scan& scan) const {
+double PlanLocalization::silence_before(const Scan& scan) const {
   constexpr Nanoseconds least = 500'000'000;  // in which nobody lifts a robot and sets it down again
-  return last_scan_ && motion_.longest_gap(*last_scan_, scan.stamp) > std::max(least, motion_.max_age());
+  const Nanoseconds gap = last_scan_ ? motion_.longest_gap(*last_scan_, scan.stamp) : 0;
+  return gap > std::max(least, motion_.max_age()) ? seconds(gap) : 0.0;
 }
 
 Pose PlanLocalization::track(const Scan& raw, DeskewedScan& scan) {
@@ -188,7 +189,7 @@ void PlanLocalization::test_times(const Scan& scan, const Pose& X_OR) {
     extrapolation_ = {};  // nothing is carried on
 }
 
-PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR, bool after_silence) const {
+PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR, double silence_s) const {
   PlanScan out;
   out.deskewed = std::move(scan);
   out.X_OR = X_OR;
@@ -203,7 +204,7 @@ PlanScan PlanLocalization::prepare_scan(DeskewedScan scan, const Pose& X_OR, boo
         input_.prior.yaw_sigma + config_.yaw_drift * (seconds(out.deskewed.stamp) - start_s_.value_or(0.0));
   }
   out.tick = tick_;
-  out.after_silence = after_silence;
+  out.silence_s = silence_s;
   return out;
 }
 

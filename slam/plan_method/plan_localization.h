@@ -69,7 +69,7 @@ struct PlanScan {
   std::optional<double> prior_yaw_I;  ///< the prior yaw propagated by odometry
   double prior_yaw_sigma = 0.0;       ///< rad
   std::uint64_t tick = 0;             ///< counts the updates, from 1
-  bool after_silence = false;         ///< neither scans nor odometry were received for a while before it
+  double silence_s = 0.0;             ///< before it, in which neither scans nor odometry were received; 0: no while
 };
 
 /// What all localizations in a plan share: odometry, by scan matching where the robot has none, when a scan is used,
@@ -129,9 +129,9 @@ class PlanLocalization : public Method {
  private:
   [[nodiscard]] bool is_due(const Pose& X_OR) const;
   [[nodiscard]] bool is_due_standing(Nanoseconds stamp) const;
-  /// Whether neither scans nor odometry were received for a while before this scan: the robot may have been carried.
-  [[nodiscard]] bool is_after_silence(const Scan& scan) const;
-  [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR, bool after_silence) const;
+  /// How long neither scans nor odometry were received before this scan, s; 0 where nobody can have carried the robot.
+  [[nodiscard]] double silence_before(const Scan& scan) const;
+  [[nodiscard]] PlanScan prepare_scan(DeskewedScan scan, const Pose& X_OR, double silence_s) const;
   /// R in O by scan matching, for a robot without odometry; the scan is deskewed. O stands on the first floor seen.
   /// Sets whether the way from the scan before is known.
   [[nodiscard]] Pose track(const Scan& raw, DeskewedScan& scan);

@@ -56,39 +56,49 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
   Tracked result;
   const Pose X_BR = motion.at(scan.stamp);
   result.X_OR = X_OB_ ? *X_OB_ * X_BR : X_BR;
-  recent_.push_back({scan, result.X_OR});
+  recent_.push_back({scan, result.X_OR, CoarseView(scan)});
   if (recent_.size() > kept_scans) recent_.pop_front();
-  if (!stands_wrongly(scan, result.X_OR)) return result;
-  why_ = Why::standing;
+  if (!contradicts_scans(scan, result.X_OR)) return result;
+  why_ = Why::wrong;
   // The scan has been matched already: this one goes by odometry, the next one by scans.
   by_scans_ = std::exchange(beside_, std::nullopt);
   return result;
 }
 
-bool WatchedOdometry::stands_wrongly(const Scan& scan, const Pose& X_OR) {
+bool WatchedOdometry::is_suspect(const Pose& X_OR) {
   constexpr double still = 0.03;  // m and rad: more than odometry's noise
   constexpr int enough = 6;       // scans, fewer than are kept
-  constexpr double went = 0.3;    // m and rad: more than registration errs by where people pass
-  constexpr int in_a_row = 3;
   if (!X_OR_standing_ || size_of(X_OR_standing_->inverse() * X_OR) > still) {
     X_OR_standing_ = X_OR;
-    standing_ = beside_moved_ = 0;
+    standing_ = 0;
+  } else if (++standing_ >= enough) {
+    return true;
+  }
+  // Assumed; a walk in place changes as little, and scan matching then agrees with odometry.
+  constexpr double goes = 0.15, unchanged = 0.8;
+  return recent_.size() == kept_scans && size_of(recent_.front().X_OR.inverse() * X_OR) > goes &&
+         recent_.front().view.unchanged_share(recent_.back().view) > unchanged;
+}
+
+bool WatchedOdometry::contradicts_scans(const Scan& scan, const Pose& X_OR) {
+  constexpr double apart = 0.3;  // m and rad: more than registration errs by where people pass
+  constexpr int in_a_row = 3;
+  if (!is_suspect(X_OR)) {
+    beside_apart_ = 0;
     beside_.reset();
     return false;
   }
-  if (++standing_ < enough) return false;
   DeskewedScan deskewed;
   if (!beside_) {
     beside_ = begin();
-    for (std::size_t i = recent_.size() - std::min<std::size_t>(recent_.size(), enough + 1); i + 1 < recent_.size();
-         ++i)
+    for (std::size_t i = 0; i + 1 < recent_.size(); ++i)
       (void)match(*beside_, recent_[i].scan, recent_[i].X_OR, deskewed);
   }
   const Registration found = match(*beside_, scan, X_OR, deskewed);
   const bool measured = found.accepted && !found.lost && !found.displaced && found.unobserved_directions == 0;
-  const bool moved = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > went;
-  beside_moved_ = measured && moved ? beside_moved_ + 1 : 0;
-  return beside_moved_ >= in_a_row;
+  const bool is_apart = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > apart;
+  beside_apart_ = measured && is_apart ? beside_apart_ + 1 : 0;
+  return beside_apart_ >= in_a_row;
 }
 
 WatchedOdometry::Tracked WatchedOdometry::by_scans(const Scan& scan, const MotionBuffer& motion, bool silent) {
@@ -106,12 +116,12 @@ WatchedOdometry::Tracked WatchedOdometry::by_scans(const Scan& scan, const Motio
 void WatchedOdometry::watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent) {
   constexpr double noise = 0.03, share = 0.2;  // m and rad; of the step
   constexpr int enough = 10;
-  constexpr double enough_m = 0.3;  // of an odometry that stood
+  constexpr double enough_m = 0.3;  // of an odometry that was wrong
   const Pose step = X_OR_->inverse() * X_OR, measured = X_BR_->inverse() * motion.at(scan.stamp);
   const bool agrees = !silent && size_of(step.inverse() * measured) <= noise + share * size_of(step);
   agreeing_ = agrees ? agreeing_ + 1 : 0;
   agreed_m_ = agrees ? agreed_m_ + size_of(measured) : 0.0;
-  if (agreeing_ < enough || (why_ == Why::standing && agreed_m_ < enough_m)) return;
+  if (agreeing_ < enough || (why_ == Why::wrong && agreed_m_ < enough_m)) return;
   X_OB_ = join_frames(X_OR, motion.at(scan.stamp));
   by_scans_.reset();
   recent_.clear();

@@ -5,12 +5,14 @@
 #include <optional>
 
 #include "slam/odometry/front_end.h"
+#include "slam/plan_method/coarse_view.h"
 #include "slam/scan/motion.h"
 
 namespace plumbline::slam {
 
-/// R in O from scan to scan: by odometry, and by scan matching where odometry is silent or stands still while the robot
-/// does not. Whoever localizes by odometry alone follows it wherever it stops.
+/// R in O from scan to scan: by odometry, and by scan matching where odometry is silent, stands still while the robot
+/// does not, or goes on while the robot stands, as with wheels that spin. Whoever localizes by odometry alone follows
+/// it wherever it stops.
 class WatchedOdometry {
  public:
   explicit WatchedOdometry(const Calibration& calibration) : calibration_(calibration) {}
@@ -35,16 +37,20 @@ class WatchedOdometry {
   struct Seen {
     Scan scan;
     Pose X_OR;
+    CoarseView view;
   };
-  enum class Why { silent, standing };
+  enum class Why { silent, wrong };
 
   [[nodiscard]] Matching begin() const;
   /// Matches the scan; `X_OR` is where it was if it is the first.
   Registration match(Matching& matching, const Scan& scan, const Pose& X_OR, DeskewedScan& deskewed) const;
   [[nodiscard]] Tracked by_odometry(const Scan& scan, const MotionBuffer& motion);
   [[nodiscard]] Tracked by_scans(const Scan& scan, const MotionBuffer& motion, bool silent);
-  /// Whether odometry has stood still for a while in which scans show that the robot went; then by_scans_ takes over.
-  [[nodiscard]] bool stands_wrongly(const Scan& scan, const Pose& X_OR);
+  /// Whether scans show for a while that the robot went where odometry stands, or stands where it goes; then by_scans_
+  /// takes over.
+  [[nodiscard]] bool contradicts_scans(const Scan& scan, const Pose& X_OR);
+  /// Whether odometry stands, or goes while the view stays as it was: scan matching is worth its time.
+  [[nodiscard]] bool is_suspect(const Pose& X_OR);
   void watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent);
 
   Calibration calibration_;
@@ -52,8 +58,8 @@ class WatchedOdometry {
   std::deque<Seen> recent_;            ///< the last scans whose poses odometry gave
   std::optional<Pose> X_OR_standing_;  ///< where odometry stands
   int standing_ = 0;                   ///< scans
-  std::optional<Matching> beside_;     ///< while odometry stands
-  int beside_moved_ = 0;               ///< scans in a row that show a robot that went
+  std::optional<Matching> beside_;     ///< while odometry is suspect
+  int beside_apart_ = 0;               ///< scans in a row that contradict odometry
   std::optional<Matching> by_scans_;   ///< while it replaces odometry
   Why why_ = Why::silent;              ///< it does
   std::optional<Pose> X_OR_, X_BR_;    ///< at the last scan: the robot's, and odometry's own

@@ -2,6 +2,9 @@
 #include "slam/planes/level.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 #include "bim/geometry/best_rotation.h"
 #include "bim/geometry/symmetric.h"
@@ -36,6 +39,28 @@ std::optional<Eigen::Vector3d> up_by_planes(std::span<const PlaneObservation> se
     if (!plane.vertical && (widest == nullptr || plane.points > widest->points)) widest = &plane;
   if (widest == nullptr) return up_by_walls(seen);
   return is_floor(*widest) ? widest->plane_R.n : Eigen::Vector3d(-widest->plane_R.n);
+}
+
+bool stands_on_lower(const DeskewedScan& scan, const Plane& lower_R, const Plane& upper_R) {
+  const SeenDirections lower = directions_of(scan, lower_R), upper = directions_of(scan, upper_R);
+  return 2 * (lower & ~upper).count() > lower.count();
+}
+
+SeenDirections directions_of(const DeskewedScan& scan, const Plane& plane_R) {
+  constexpr double near_m = 0.05;  // of a plane: noise, and the sway that a scan is bent by
+  constexpr int enough = 2;        // returns in a direction; one may be of an edge
+  constexpr std::size_t directions = SeenDirections().size();
+  std::array<int, directions> returns{};
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const Eigen::Vector3d& p_R = scan.point_R[i];
+    if (scan.range_m[i] <= 0.0 || std::abs(plane_R.distance(p_R)) >= near_m) continue;
+    const Eigen::Vector3d ray_R = p_R - scan.X_RL.t;
+    const double turn = 0.5 + 0.5 * std::atan2(ray_R.y(), ray_R.x()) / std::numbers::pi;
+    ++returns[std::min(static_cast<std::size_t>(turn * directions), directions - 1)];
+  }
+  SeenDirections seen;
+  for (std::size_t k = 0; k < directions; ++k) seen[k] = returns[k] >= enough;
+  return seen;
 }
 
 Eigen::Quaterniond level_by_planes(std::span<const PlaneObservation> seen) {

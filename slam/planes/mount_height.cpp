@@ -47,7 +47,18 @@ double returns_below(const DeskewedScan& scan, const PlaneObservation& plane, do
   return count;
 }
 
-std::optional<double> height_in(const Scan& scan, const Calibration& calibration, std::uint64_t seed) {
+/// Height above a floor that is seen in so many directions.
+struct SeenHeight {
+  double height_m = 0.0;
+  std::size_t directions = 0;
+};
+
+std::optional<SeenHeight> with_all_directions(const std::optional<double>& height) {
+  if (!height) return std::nullopt;
+  return SeenHeight{*height, SeenDirections().size()};
+}
+
+std::optional<SeenHeight> height_in(const Scan& scan, const Calibration& calibration, std::uint64_t seed) {
   const DeskewedScan raw = as_deskewed(scan, calibration);
   const std::vector<PlaneObservation> seen = observe_planes(raw, {}, RinglessRansacConfig(), seed);
   const std::optional<Eigen::Vector3d> up_R = up_by_planes(seen);
@@ -65,26 +76,63 @@ std::optional<double> height_in(const Scan& scan, const Calibration& calibration
   };
   for (const PlaneObservation& plane : seen)
     if (may_be_floor(plane) && (floor == nullptr || plane.points > floor->points)) floor = &plane;
-  if (floor == nullptr) return height_by_lowest(raw);
+  const auto by_plane = [&](const PlaneObservation& plane) {
+    return SeenHeight{depth(plane), directions_of(raw, plane.plane_R).count()};
+  };
+  const auto by_lowest = [&] { return with_all_directions(height_by_lowest(raw)); };
+  if (floor == nullptr) return by_lowest();
   // A desk beside the LiDAR may hold more returns than the floor behind it.
   const PlaneObservation* lowest = floor;
   for (const PlaneObservation& plane : seen)
-    if (may_be_floor(plane) && plane.points >= least_share * floor->points && depth(plane) > depth(*lowest) + step_m)
+    if (may_be_floor(plane) && plane.points >= least_share * floor->points && depth(plane) > depth(*lowest) + step_m &&
+        stands_on_lower(raw, plane.plane_R, lowest->plane_R))
       lowest = &plane;
-  if (lowest != floor) return depth(*lowest);
+  if (lowest != floor) return by_plane(*lowest);
   const double below = most_below * floor->points;
-  return returns_below(raw, *floor, step_m) > below ? height_by_lowest(raw) : std::optional(depth(*floor));
+  return returns_below(raw, *floor, step_m) > below ? by_lowest() : by_plane(*floor);
+}
+
+/// Median of the scans that see a floor; none where fewer than a third do.
+std::optional<SeenHeight> median_height(std::span<const Scan> scans, const Calibration& calibration,
+                                        std::uint64_t seed) {
+  std::vector<double> heights;
+  std::vector<std::size_t> directions;
+  for (const Scan& scan : scans)
+    if (const std::optional<SeenHeight> seen = height_in(scan, calibration, seed)) {
+      heights.push_back(seen->height_m);
+      directions.push_back(seen->directions);
+    }
+  if (heights.empty() || 3 * heights.size() < scans.size()) return std::nullopt;
+  return SeenHeight{upper_median(heights), upper_median(directions)};
 }
 
 }  // namespace
 
 std::optional<double> height_over_floor(std::span<const Scan> scans, const Calibration& calibration,
                                         std::uint64_t seed) {
-  std::vector<double> heights;
-  for (const Scan& scan : scans)
-    if (const std::optional<double> height = height_in(scan, calibration, seed)) heights.push_back(*height);
-  if (heights.empty() || 3 * heights.size() < scans.size()) return std::nullopt;
-  return upper_median(heights);
+  const std::optional<SeenHeight> seen = median_height(scans, calibration, seed);
+  return seen ? std::optional(seen->height_m) : std::nullopt;
+}
+
+std::optional<double> height_over_floor(Recording& recording, const Calibration& calibration, std::uint64_t seed) {
+  constexpr std::size_t enough = 10, clear = SeenDirections().size() / 4;
+  constexpr double longest_s = 30.0;
+  std::optional<Nanoseconds> first;
+  std::optional<SeenHeight> best;
+  std::vector<Scan> scans;
+  const auto judge = [&] {
+    const std::optional<SeenHeight> seen = median_height(scans, calibration, seed);
+    if (seen && (!best || seen->directions > best->directions)) best = seen;
+    scans.clear();
+  };
+  for (SensorFrame frame; (!best || best->directions < clear) && recording.next(frame);) {
+    if (!first) first = frame.scan.stamp;
+    if (seconds(frame.scan.stamp - *first) > longest_s) break;
+    scans.push_back(std::move(frame.scan));
+    if (scans.size() == enough) judge();
+  }
+  if (!best && !scans.empty()) judge();
+  return best ? std::optional(best->height_m) : std::nullopt;
 }
 
 }  // namespace plumbline::slam

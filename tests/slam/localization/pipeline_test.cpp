@@ -10,36 +10,10 @@
 #include "bim/geometry/polygon.h"
 #include "bim/random/stream.h"
 #include "tests/slam/localization/house_plan.h"
+#include "tests/slam/localization/localized.h"
 
 namespace plumbline::slam {
 namespace {
-
-MethodInput input_for(const synthetic::Recording& recording, const bim::Plan& plan, bool yaw_known) {
-  MethodInput input;
-  input.seed = 17;
-  input.calibration = recording.calibration;
-  input.plan = std::make_shared<bim::Plan>(plan);
-  if (yaw_known) input.prior.yaw_W = recording.truth.front().X_FR.yaw();
-  return input;
-}
-
-struct Answers {
-  std::vector<Output> outputs;
-  Estimate estimate;
-};
-
-Answers run(const synthetic::Recording& recording, const MethodInput& input) {
-  Answers result;
-  const std::unique_ptr<Method> method = make_s_graph_localization(input);
-  std::size_t next = 0;
-  for (const Scan& scan : recording.scans) {
-    while (next < recording.odometry.size() && recording.odometry[next].stamp <= scan.stamp)
-      method->on_odometry(recording.odometry[next++]);
-    result.outputs.push_back(method->on_scan(scan));
-  }
-  result.estimate = method->finish();
-  return result;
-}
 
 synthetic::Recording short_walk(double seconds) {
   synthetic::WalkConfig config;

@@ -70,17 +70,32 @@ LocalizationScan seen_by_rings(const std::vector<double>& elevations_deg) {
   return make_localization_scan(scan, {}, Pose{}, calibration, {});
 }
 
-/// Height found by level planes so far below R, each with its returns, of a LiDAR at R that stands 1 m high.
-double height_by(const std::vector<std::pair<double, int>>& below) {
+/// A level plane so far below R, with its returns, which are spread over these directions of 10 degrees.
+struct LevelPlane {
+  double down_m = 0.0;
+  int points = 0;
+  int first = 0, last = 35;
+  double range_m = 5.0;
+};
+
+/// Height found by such planes, of a LiDAR at R that stands 1 m high.
+double height_by(const std::vector<LevelPlane>& below) {
   std::vector<PlaneObservation> planes;
-  for (const auto& [down_m, points] : below) {
-    PlaneObservation plane;
-    plane.plane_R = {Eigen::Vector3d::UnitZ(), down_m};
-    plane.points = points;
-    planes.push_back(plane);
-  }
   DeskewedScan scan;
-  scan.columns = scan.rings = 0;
+  scan.rings = 1;
+  for (const LevelPlane& level : below) {
+    PlaneObservation plane;
+    plane.plane_R = {Eigen::Vector3d::UnitZ(), level.down_m};
+    plane.points = level.points;
+    planes.push_back(plane);
+    for (int direction = level.first; direction <= level.last; ++direction)
+      for (const double off : {0.3, 0.5, 0.7}) {
+        const double azimuth = (direction + off) * std::numbers::pi / 18.0 - std::numbers::pi;
+        scan.point_R.emplace_back(level.range_m * std::cos(azimuth), level.range_m * std::sin(azimuth), -level.down_m);
+        scan.range_m.push_back(scan.point_R.back().norm());
+      }
+  }
+  scan.columns = static_cast<int>(scan.range_m.size());
   Calibration calibration;
   calibration.sensor_height_m = 1.0;
   return make_localization_scan(scan, planes, Pose{}, calibration, {}).sensor_height;
@@ -89,10 +104,18 @@ double height_by(const std::vector<std::pair<double, int>>& below) {
 TEST(LocalizationScan, ATableIsNoFloorHoweverManyReturnsItHolds) {
   EXPECT_NEAR(height_by({{1.02, 100}}), 1.02, 1e-12);
   EXPECT_NEAR(height_by({{0.6, 500}, {1.02, 100}}), 1.02, 1e-12);
-  EXPECT_NEAR(height_by({{0.85, 500}, {1.02, 100}}), 1.02, 1e-12) << "a pallet";
+  EXPECT_NEAR(height_by({{0.85, 500, 0, 11, 1.5}, {1.02, 100}}), 1.02, 1e-12) << "a pallet";
   EXPECT_NEAR(height_by({{0.6, 500}}), 1.0, 1e-12) << "the floor is hidden";
   EXPECT_NEAR(height_by({{1.7, 100}}), 1.7, 1e-12) << "carried higher than was said";
   EXPECT_NEAR(height_by({{1.3, 5}, {1.02, 100}}), 1.02, 1e-12) << "a few returns by a mirror";
+}
+
+// It was taken for the floor, and the robot to stand as much higher.
+TEST(LocalizationScan, TheGroundBehindWindowsIsNoFloor) {
+  EXPECT_NEAR(height_by({{1.02, 100, 0, 35}, {1.35, 90, 3, 14, 9.0}}), 1.02, 1e-12);
+  EXPECT_NEAR(height_by({{1.35, 90, 3, 9, 9.0}}), 1.0, 1e-12) << "alone";
+  EXPECT_NEAR(height_by({{1.35, 90, 0, 30}}), 1.35, 1e-12) << "a platform that the robot stands on";
+  EXPECT_NEAR(height_by({{2.4, 90, 3, 9, 3.0}}), 2.4, 1e-12) << "a landing";
 }
 
 // Whatever the LiDAR, some beams pass over low furniture.

@@ -104,6 +104,28 @@ TEST(WatchedOdometry, ARecordASecondIsTooFew) {
 
 TEST(WatchedOdometry, WithoutEitherTheWayIsNotKnown) { EXPECT_GT(follow(silent(6.0, 100.0), 6.0).unknown, 20); }
 
+// Wheels spin for 4 s under a robot that stands, and then it stands on: nothing but the view tells.
+TEST(WatchedOdometry, ScansTakeOverWhereWheelsSpin) {
+  for (const double speed_mps : {0.3, 0.7}) {
+    synthetic::WalkConfig walk;
+    walk.duration_s = 8.0;
+    walk.speed_mps = 1e-6;
+    const synthetic::Recording recording =
+        synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+    WatchedOdometry watched(recording.calibration);
+    MotionBuffer motion;
+    for (const Odometry& record : recording.odometry) {
+      const double spun_s = std::clamp(seconds(record.stamp) - 2.0, 0.0, 4.0);
+      motion.add(
+          {record.stamp, recording.odometry.front().X_OR * Pose::from_xyz_yaw({speed_mps * spun_s, 0.0, 0.0}, 0.0)});
+    }
+    Pose X_OR;
+    for (const Scan& scan : recording.scans) X_OR = watched.track(scan, motion, 0).X_OR;
+    EXPECT_TRUE(watched.is_by_scans());
+    EXPECT_LT((recording.odometry.front().X_OR.inverse() * X_OR).t.norm(), 0.05) << speed_mps;
+  }
+}
+
 // A robot that stands is no odometry that stands wrongly.
 TEST(WatchedOdometry, ARobotMayStand) {
   synthetic::WalkConfig walk;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/slam/synthetic.h"
@@ -68,6 +69,56 @@ TEST(MountHeight, IsNotThatOverADesk) {
   const std::optional<double> height = height_over_floor(scans, synthetic::calibration(), 1);
   ASSERT_TRUE(height.has_value());
   EXPECT_NEAR(*height, z_m + synthetic::calibration().X_RL.t.z(), 0.05);
+}
+
+/// Scans in this order, and nothing else.
+class Scans final : public Recording {
+ public:
+  explicit Scans(std::vector<Scan> scans) : scans_(std::move(scans)) {}
+  [[nodiscard]] bool next(SensorFrame& frame) override {
+    if (next_ == scans_.size()) return false;
+    frame.scan = scans_[next_];
+    frame.scan.stamp = static_cast<Nanoseconds>(next_++) * 100'000'000;
+    return true;
+  }
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+  [[nodiscard]] bool has_odometry() const override { return false; }
+  [[nodiscard]] Nanoseconds origin() const override { return 0; }
+  [[nodiscard]] Taken taken() const override { return {}; }
+
+ private:
+  std::vector<Scan> scans_;
+  std::size_t next_ = 0;
+  RecordingInfo info_;
+};
+
+TEST(MountHeight, OfARecordingIsByTheFirstTenScansThatShowIt) {
+  std::vector<Scan> seen = scans_from(0.5, 0.0), all(25, seen.front());
+  for (Scan& scan : all) std::fill(scan.range_m.begin(), scan.range_m.end(), 0.0);
+  for (int i = 0; i < 6; ++i) all.push_back(seen[static_cast<std::size_t>(i) % seen.size()]);
+  Scans later(all);
+  const std::optional<double> height = height_over_floor(later, synthetic::calibration(), 1);
+  ASSERT_TRUE(height.has_value());
+  EXPECT_NEAR(*height, 0.5 + synthetic::calibration().X_RL.t.z(), 0.02);
+  all.insert(all.begin(), 300, all.front());
+  Scans too_late(all);
+  EXPECT_FALSE(height_over_floor(too_late, synthetic::calibration(), 1).has_value()) << "after half a minute";
+}
+
+// Behind a window, half a metre lower than the floor.
+TEST(MountHeight, IsNotThatOverTheGroundOutdoors) {
+  synthetic::House house = synthetic::one_room(40.0, 40.0);
+  house.boxes.push_back({{8.0, 8.0, 0.0}, {32.0, 32.0, 0.5}});
+  const double z_m = 1.5;
+  std::vector<Scan> scans = {
+      synthetic::standing_scan(house, Pose::from_xyz_yaw({20.0, 20.0, z_m}, 0.3), synthetic::WalkConfig())};
+  for (Scan& scan : scans)
+    for (std::size_t i = 0; i < scan.range_m.size(); ++i)
+      if (std::abs(std::atan2(scan.point_L[i].y(), scan.point_L[i].x())) > 0.8 && scan.range_m[i] > 12.2)
+        scan.range_m[i] = 0.0;
+  const std::optional<double> height = height_over_floor(scans, synthetic::calibration(), 1);
+  ASSERT_TRUE(height.has_value());
+  EXPECT_NEAR(*height, z_m - 0.5 + synthetic::calibration().X_RL.t.z(), 0.05);
 }
 
 TEST(MountHeight, IsUnknownWhereFewScansSeeAFloor) {
