@@ -148,7 +148,8 @@ TEST(ProcessAnswers, ATrajectoryGoesForward) {
   EXPECT_EQ(estimate({0, 1, 5}).frame, Frame::world);
   EXPECT_EQ(estimate({}).map_F.front(), Eigen::Vector3f(1, 2, 3));
   EXPECT_THROW((void)estimate({0, 5, 5}), ProcessFailure);
-  EXPECT_EQ(estimate({-5, 0}).trajectory.size(), 2U) << "clouds stamped at the start of a sweep, before the first record";
+  EXPECT_EQ(estimate({-5, 0}).trajectory.size(), 2U)
+      << "clouds stamped at the start of a sweep, before the first record";
   EXPECT_THROW((void)estimate({-5, -6}), ProcessFailure);
 }
 
