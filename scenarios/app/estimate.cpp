@@ -115,7 +115,8 @@ LoadedPlan load_plan(const EstimateArguments& options, const slam::MethodRow& ro
   const std::optional<std::string> named =
       options.storey.empty() ? slam::prior_of(info).storey : std::optional(options.storey);
   if (!named) return loaded;
-  const int storey = find_storey(building.as_planned(), *named, {"--storey", 0, 0});
+  const int storey =
+      find_storey(building.as_planned(), *named, {options.storey.empty() ? options.input.recording : "--storey", 0, 0});
   loaded.storey = loaded.plan->storeys[static_cast<std::size_t>(storey)].name;
   return loaded;
 }

@@ -75,8 +75,8 @@ std::string sentence(const Eigen::Quaterniond& q, const Eigen::Quaterniond& told
   const double roll = std::atan2(R(2, 1), R(2, 2)), pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
   const double yaw = std::atan2(R(1, 0), R(0, 0));
   const auto whole = [](double rad) { return format_number(std::round(rad * degrees) + 0.0); };
-  std::string said = odometry ? "ways and turns by scans fit those of odometry"
-                              : "turns by scans fit those of the gyro (a turn about its axis cannot be told)";
+  std::string said = odometry ? "translations and rotations by scans fit those of odometry"
+                              : "rotations by scans fit those of the gyro (one about its axis is not seen)";
   said += " best with the LiDAR turned against its mount by roll " + whole(roll) + ", pitch " + whole(pitch) +
           ", yaw " + whole(yaw) + " degrees: its mount or the frame of the " + (odometry ? "odometry" : "IMU") +
           " is another. A --description with quaternion_xyzw " + quaternion_text(q * told_RL) + " would fit";

@@ -96,7 +96,12 @@ void add_map(const std::string& text, std::vector<MethodRecord>& outside) {
   if (method == outside.end())
     throw InputError(mark, "there is no --estimate '" + name + "' that it could be the map of");
   const std::string file = text.substr(equals + 1);
-  method->estimate.map_F = slam::thin_map(slam::read_cloud_points(file));
+  const std::vector<Eigen::Vector3f> points_F = slam::read_cloud_points(file);
+  for (const Eigen::Vector3f& p : points_F)
+    if (p.norm() > slam::farthest_map_point_m)
+      throw InputError({file, 0, 0},
+                       "holds a point farther than 50 km from the origin; a map is in the frame of its poses");
+  method->estimate.map_F = slam::thin_map(points_F);
   if (method->estimate.map_F.empty()) throw InputError({file, 0, 0}, "holds no point");
 }
 

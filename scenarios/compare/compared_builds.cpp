@@ -71,9 +71,14 @@ void sweep_with(const std::string& program, const ComparedBuilds& builds, const 
   const auto ended = [&](std::size_t, const ChildEnd& end) {
     constexpr int bad_input = 2;
     if (end.code == 0) return;
+    if (end.code == bad_input && fs::exists(out + "/runs.csv")) {  // a walk that cannot be made; the others are
+      print_note("plumbline: warning: " + program + ": " + end.last_line);
+      return;
+    }
     if (end.code == bad_input) throw InputError({program, 0, 0}, "refuses the sweep: " + end.last_line);
     throw EnvironmentError(program + ": the sweep ended with " + std::to_string(end.code) + ": " + end.last_line);
   };
+  fs::remove(out + "/runs.csv");  // of an earlier call; a sweep that gets as far writes it anew
   try {
     run_children(1, 1, arguments, ended, program);
   } catch (const Interrupted& interrupted) {

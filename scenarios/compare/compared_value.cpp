@@ -84,6 +84,7 @@ ComparedValue compare_outcome(const std::vector<const RowPair*>& pairs, Outcome 
   value.a = static_cast<double>(in_a);
   value.b = static_cast<double>(in_b);
   if (pairs.size() > 1 && value.differing() > 0) value.p = mcnemar_p(value.better, value.worse);
+  value.for_worse = value.worse > value.better;
   return value;
 }
 
@@ -125,14 +126,8 @@ ComparedValue compare_metric(const std::vector<const RowPair*>& pairs, const std
   if (shift.interval)
     value.interval = {shown(shift.interval->first, metric.change), shown(shift.interval->second, metric.change)};
   if (value.pairs > 1) value.p = signed_rank_p(differences);
+  value.for_worse = (signed_rank_side(differences) > 0.0) == metric.lower_is_better;
   return value;
-}
-
-bool is_for_worse(const ComparedValue& value) {
-  if (value.outcome) return value.worse > value.better;
-  const double none = value.change == Change::ratio ? 1.0 : 0.0;
-  const bool larger = value.shift.value_or(none) > none;
-  return larger == metric_called(value.name).lower_is_better;
 }
 
 }  // namespace plumbline::scenarios

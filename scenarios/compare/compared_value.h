@@ -18,7 +18,4 @@ enum class Outcome { right, wrong };
 /// (honest_ambiguity). A distance or time to convergence counts where it is a success, as in a sweep's table.
 [[nodiscard]] ComparedValue compare_metric(const std::vector<const RowPair*>& pairs, const std::string& metric);
 
-/// On which side the pairs that differ are, taken together.
-[[nodiscard]] bool is_for_worse(const ComparedValue& value);
-
 }  // namespace plumbline::scenarios

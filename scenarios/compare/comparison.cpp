@@ -88,7 +88,7 @@ std::size_t correct_for_number(std::vector<ComparedMethod>& methods) {
   const std::vector<double> corrected = holm(p);
   for (std::size_t i = 0; i < tests.size(); ++i) {
     tests[i]->p_holm = corrected[i];
-    const bool worse = is_for_worse(*tests[i]);
+    const bool worse = tests[i]->for_worse;
     if (corrected[i] <= significance)
       tests[i]->finding = worse ? Finding::worse : Finding::better;
     else if (p[i] <= significance)

@@ -35,6 +35,7 @@ struct ComparedValue {
   /// Of the pairs that differ: see pseudo_median(), as a factor where `change` is a ratio. May be infinite.
   std::optional<double> shift;
   std::optional<std::pair<double, double>> interval;
+  bool for_worse = false;                ///< the side on which the pairs that differ are, taken together
   std::optional<double> geometric_mean;  ///< of the ratios of all pairs with two values above 0
   std::optional<double> p;               ///< two-sided, exact; absent where no pair or one pair differs at all
   std::optional<double> p_holm;          ///< corrected for all tests; absent where it was no test

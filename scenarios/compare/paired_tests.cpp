@@ -97,6 +97,26 @@ std::size_t means_outside(std::size_t n) {
   return 0;
 }
 
+/// Of differences that are not 0.
+struct SignedRanks {
+  std::vector<std::size_t> doubled;  ///< by size
+  std::size_t plus = 0, all = 0;     ///< their sums, of positive differences and of all
+};
+
+SignedRanks signed_ranks(const std::vector<double>& differences) {
+  std::vector<double> nonzero;
+  std::copy_if(differences.begin(), differences.end(), std::back_inserter(nonzero), [](double d) { return d != 0.0; });
+  std::sort(nonzero.begin(), nonzero.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  std::vector<double> sizes(nonzero.size());
+  std::transform(nonzero.begin(), nonzero.end(), sizes.begin(), [](double d) { return std::abs(d); });
+  SignedRanks ranks;
+  ranks.doubled = doubled_ranks(sizes);
+  ranks.all = std::accumulate(ranks.doubled.begin(), ranks.doubled.end(), std::size_t{0});
+  for (std::size_t i = 0; i < nonzero.size(); ++i)
+    if (nonzero[i] > 0.0) ranks.plus += ranks.doubled[i];
+  return ranks;
+}
+
 }  // namespace
 
 double mcnemar_p(std::size_t only_first, std::size_t only_second) {
@@ -113,19 +133,10 @@ double mcnemar_p(std::size_t only_first, std::size_t only_second) {
 }
 
 double signed_rank_p(const std::vector<double>& differences) {
-  std::vector<double> nonzero;
-  std::copy_if(differences.begin(), differences.end(), std::back_inserter(nonzero), [](double d) { return d != 0.0; });
-  if (nonzero.empty()) return 1.0;
-  std::sort(nonzero.begin(), nonzero.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  std::vector<double> sizes(nonzero.size());
-  std::transform(nonzero.begin(), nonzero.end(), sizes.begin(), [](double d) { return std::abs(d); });
-  const std::vector<std::size_t> ranks = doubled_ranks(sizes);
-  const std::size_t all = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
-  std::size_t plus = 0;
-  for (std::size_t i = 0; i < ranks.size(); ++i)
-    if (nonzero[i] > 0.0) plus += ranks[i];
+  const auto [ranks, plus, all] = signed_ranks(differences);
+  if (ranks.empty()) return 1.0;
   const std::size_t smaller = std::min(plus, all - plus);
-  if (nonzero.size() > most_exact_pairs) {
+  if (ranks.size() > most_exact_pairs) {
     double variance = 0.0;  // of the doubled sum: a quarter of the sum of squares
     for (const std::size_t rank : ranks) variance += 0.25 * static_cast<double>(rank) * static_cast<double>(rank);
     const double below = 0.5 * static_cast<double>(all) - static_cast<double>(smaller) - 1.0;  // half a rank, doubled
@@ -134,6 +145,11 @@ double signed_rank_p(const std::vector<double>& differences) {
   const std::vector<double> probability = sum_distribution(ranks);
   return std::min(1.0, 2.0 * std::accumulate(probability.begin(),
                                              probability.begin() + static_cast<std::ptrdiff_t>(smaller + 1), 0.0));
+}
+
+double signed_rank_side(const std::vector<double>& differences) {
+  const SignedRanks ranks = signed_ranks(differences);
+  return 2.0 * static_cast<double>(ranks.plus) - static_cast<double>(ranks.all);
 }
 
 PseudoMedian pseudo_median(const std::vector<double>& differences) {

@@ -22,17 +22,22 @@ inline constexpr std::size_t fewest_differences = 6;
 /// may be infinite. 1 where none is left.
 [[nodiscard]] double signed_rank_p(const std::vector<double>& differences);
 
+/// Which side of 0 the ranks of signed_rank_p() are on: above 0 where those of positive differences sum up to more. The
+/// shift may be 0 where this is not, as with many equal differences.
+[[nodiscard]] double signed_rank_side(const std::vector<double>& differences);
+
 /// A shift, and its interval of 95 % where there are fewest_differences. Each may be infinite.
 struct PseudoMedian {
   double value = 0.0;
   std::optional<std::pair<double, double>> interval;
 };
-/// Median of the means of all pairs of differences, each with itself, too, and the interval of all shifts that
-/// signed_rank_p() does not refuse at 5 % [hodges1963]: it holds the centre of a symmetric distribution with at least
-/// 95 %. Differences may be infinite; the mean of two opposite infinities is 0. At least one difference.
+/// Median of the means of all pairs of differences, each with itself, too, and the interval of all shifts that,
+/// where no two differences have one size, signed_rank_p() does not reject at 5 % [hodges1963]: it holds the centre of
+/// a symmetric distribution with at least 95 %. Differences may be infinite; the mean of two opposite infinities is 0.
+/// At least one difference.
 [[nodiscard]] PseudoMedian pseudo_median(const std::vector<double>& differences);
 
-/// p-values corrected for their number [holm1979]: refusing those of at most 0.05 errs in any with at most 5 %.
+/// p-values corrected for their number [holm1979]: rejecting those of at most 0.05 errs in any with at most 5 %.
 [[nodiscard]] std::vector<double> holm(const std::vector<double>& p);
 
 }  // namespace plumbline::scenarios

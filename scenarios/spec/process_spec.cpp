@@ -51,6 +51,8 @@ void check(const ProcessSpec& process, slam::MethodTable table, const Mark& mark
   if (process.name.empty() || process.name.size() > longest ||
       !std::all_of(process.name.begin(), process.name.end(), allowed))
     throw InputError(mark, "a method's name must be 1 to 60 letters, digits, - and _, not '" + process.name + "'");
+  if (process.name == "sim")
+    throw InputError(mark, "'sim' is what digests call the simulator; give the process another name");
   if (process.name == truth_method || slam::find_method(process.name, table) != nullptr)
     throw InputError(mark, "method '" + process.name + "' is in the table already; give the process another name");
   if (process.command.empty() || process.command.front().empty())

@@ -346,7 +346,9 @@ SweepTables collect_sweep(const Sweep& sweep, const std::vector<std::string>& fo
   if (missing > 0)
     throw InputError({folders.front(), 0, 0}, "and its like lack " + std::to_string(missing) + " of " +
                                                   std::to_string(sweep.runs.size()) + " runs, the first is " +
-                                                  first_missing + "; run the shards again, they go on");
+                                                  first_missing +
+                                                  "; run the shards again, they go on. Results of another build of the "
+                                                  "program, or of another scenario, do not count");
   check_no_other_sweep(sweep, out);
   const SweepFolder folder(out);
   for (std::size_t i = 0; i < sweep.runs.size(); ++i)

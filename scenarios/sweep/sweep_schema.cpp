@@ -30,7 +30,8 @@ SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from 
   to hold an answer for 5 s and 1 m.
 - They give the success rate of identifiable runs with its 95 % interval (Wilson), the share of `honest_ambiguity` of
   ambiguous runs, the share of right answers of marginal runs, false convergences, and the median error of the identifiable runs.
-- The median distance to convergence counts an identifiable run without `success` as infinite, the median error one that has none.
+- Of these runs the median distance to convergence counts one without `success` as infinite. The median error counts one
+  without an error as infinite, as where it never converged or crashed.
 - Rows of SLAM methods give the share of `complete` and the median error.
 - Gates belong to `plumbline run`. A sweep checks none, and its exit code is 0 whatever its table holds.
 - A run whose scenario cannot be walked counts as failed; the others go on, their table is written, and the exit code is 2.

@@ -319,7 +319,7 @@ std::vector<Line> table_lines(const std::vector<SweepCell>& cells) {
          std::to_string(c.false_convergences), optional_text(c.median_identifiable_at_s, 1),
          optional_text(c.median_identifiable_at_m, 1),
          c.localizes && c.judged > 0 && !c.median_converged_at_m ? "never" : optional_text(c.median_converged_at_m, 1),
-         c.judged > 0 && !c.median_error_m ? "never" : optional_text(c.median_error_m, 3), verdict_list(c)});
+         c.judged > 0 && !c.median_error_m ? "none" : optional_text(c.median_error_m, 3), verdict_list(c)});
   return lines;
 }
 

@@ -58,7 +58,6 @@ class SGraphLocalization final : public PlanLocalization {
         global_localizer_(config.search, input.seed),
         alternatives_(config) {
     config_.scan.max_height_m = wall_height(*input.plan, config.scan);
-    floor_tolerance_m_ = floor_tolerance_m(*input.plan, index(), input.calibration);
   }
 
   [[nodiscard]] Estimate finish() override;
@@ -82,6 +81,9 @@ class SGraphLocalization final : public PlanLocalization {
   void follow_storey();
   void check_kidnap(const LocalizationScan& scan);
   void search_anew();
+  [[nodiscard]] bool is_carried_elsewhere(double silence_s, const LocalizationScan& scan);
+  [[nodiscard]] bool may_be_on_another_storey() const;
+  void add_all_storeys();
   [[nodiscard]] bool is_on_floor() const;
   [[nodiscard]] StoreyPose tracked_pose(const LocalizationScan& scan) const;
   void correct_by_beams(const LocalizationScan& scan);
@@ -93,12 +95,13 @@ class SGraphLocalization final : public PlanLocalization {
   void record_tracked_poses(const std::vector<TrackedPose>& poses);
 
   LocalizationConfig config_;
-  double floor_tolerance_m_ = 0.0;
   GlobalLocalizer global_localizer_;
   std::optional<PlanTracker> tracker_;
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
+  std::optional<Nanoseconds> used_stamp_;   ///< of the last scan of a robot that moves
+  double since_stop_m_ = 1e9;               ///< walked since it stood or was silent for as long as a lift takes
   bool doubts_place_ = false;               ///< since a silence, until a scan fits: the robot may have been carried
   double misfit_ = 0.0;                     ///< of the tracked pose, see KidnapMonitorConfig
   int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
@@ -115,13 +118,16 @@ void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   Stopwatch stopwatch;
   doubted_yaw_.reset();
   doubts_place_ |= scan.silence_s > 0.0;
+  const double since_use_s = used_stamp_ ? seconds(scan.deskewed.stamp - *used_stamp_) : 0.0;
+  used_stamp_ = scan.deskewed.stamp;
+  const bool stopped = scan.silence_s > 0.0 || since_use_s > config_.monitor.lift_s;
+  since_stop_m_ = stopped ? 0.0 : since_stop_m_ + scan.u.t.norm();
+  if (stopped && state_ == State::lost) add_all_storeys();
   if (scan.prior_yaw_I) doubted_yaw_ = ExpectedYaw{*scan.prior_yaw_I, scan.prior_yaw_sigma};
   const auto [planes, localization_scan] = observe(scan, stopwatch, output);
   if (!tracker_)
     localize(localization_scan, start_prior(scan), planes, output);  // particles to X_WO [shaheer2023, eq. 4-10]
-  else if (scan.silence_s > config_.monitor.carried_s &&
-           alternatives_.may_stand_elsewhere(index(), tracked_pose(localization_scan), localization_scan,
-                                             global_localizer_))
+  else if (is_carried_elsewhere(scan.silence_s, localization_scan))
     search_anew();
   else
     track(localization_scan, planes, output);  // S-Graph on the plan's walls and rooms [shaheer2023, section 3.4]
@@ -133,7 +139,7 @@ SGraphLocalization::Observed SGraphLocalization::observe(const PlanScan& scan, S
   observed.planes = observe_planes(scan.deskewed, config_.planes, config_.ransac_without_rings,
                                    input().seed);  // [shaheer2023, eq. 3]
   observed.scan = make_localization_scan(scan.deskewed, observed.planes, scan.X_OR, input().calibration, config_.scan,
-                                         floor_tolerance_m_);
+                                         floor_tolerance_m(*input().plan, index(), input().calibration));
   observed.scan.tilt_sigma = scan.tilt_sigma;
   record_stage("planes", stopwatch, output);
   output.digests.push_back({"planes", digest_of(observed.scan)});
@@ -263,14 +269,29 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
   search_anew();
 }
 
-/// A robot that is lost may have been carried, by a lift too: the storey it started on is no longer known.
+/// After a silence in which it may have been carried: whether another place looks the same.
+bool SGraphLocalization::is_carried_elsewhere(double silence_s, const LocalizationScan& scan) {
+  if (silence_s <= config_.monitor.carried_s) return false;
+  add_all_storeys();
+  if (!alternatives_.may_stand_elsewhere(index(), tracked_pose(scan), scan, global_localizer_)) return false;
+  record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});  // they were right
+  return true;
+}
+
+/// A lift takes its time, or a robot is carried: one that went on walking is on the storey where it was.
+bool SGraphLocalization::may_be_on_another_storey() const { return since_stop_m_ < config_.monitor.after_lift_m; }
+
+void SGraphLocalization::add_all_storeys() {
+  const bim::Plan& plan = *input().plan;
+  for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i)
+    if (has_room(plan, i)) static_cast<void>(storey_of_plan(i));
+}
+
 void SGraphLocalization::search_anew() {
   tracker_.reset();  // with its window
   global_localizer_.restart();
   state_ = State::lost;
-  const bim::Plan& plan = *input().plan;
-  for (int i = 0; i < static_cast<int>(plan.storeys.size()); ++i)
-    if (has_room(plan, i)) static_cast<void>(storey_of_plan(i));
+  if (may_be_on_another_storey()) add_all_storeys();
 }
 
 void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& poses) {

@@ -28,6 +28,8 @@ struct KidnapMonitorConfig {
   double misfit = 12.0;
   int outside_updates = 4;
   double carried_s = 5.0;
+  double lift_s = 3.0;
+  double after_lift_m = 10.0;
 
   template <class V>
   void visit(V& v) {
@@ -62,6 +64,13 @@ struct KidnapMonitorConfig {
                    "the next scan about as well",
             .unit = "s",
             .min = 0});
+    // Both assumed.
+    v("lift_s", lift_s,
+      Field{.doc = "time in which a robot went less than update_m, after which it may be on another storey",
+            .unit = "s",
+            .min = 0});
+    v("after_lift_m", after_lift_m,
+      Field{.doc = "distance walked since within which a lost robot is searched on all storeys", .min = 0});
     v("off_floor_m", off_floor_m,
       Field{.doc = "height over or under a storey's floor from which the robot is on a stair", .min = 0.05});
   }

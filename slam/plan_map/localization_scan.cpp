@@ -35,8 +35,8 @@ std::optional<double> height_over_floor(const DeskewedScan& raw, const std::vect
       continue;
     // Assumed: a floor, also that below a landing, is seen in more directions than the ground through windows.
     constexpr double ground_m = 0.6;  // below the floor of a building at most, where it is not farther than a landing
-    constexpr std::size_t few = SeenDirections().size() / 4;
-    if (lower > nearest_m / 2.0 && lower < ground_m && directions_of(raw, plane.plane_R).count() < few) continue;
+    constexpr double few = 0.25;
+    if (lower > nearest_m / 2.0 && lower < ground_m && share_of_directions(raw, plane.plane_R) < few) continue;
     level.push_back(&plane);
     if (largest == nullptr || plane.points > largest->points) largest = &plane;
   }

@@ -21,7 +21,7 @@ std::size_t cell_of(double share, std::size_t cells) {
 
 CoarseView::CoarseView(const Scan& scan) : range_m_(azimuths * elevations, 0.0F) {
   std::vector<int> count(range_m_.size(), 0);
-  const std::size_t step = scan.size() / most_returns + 1;
+  const std::size_t step = (scan.size() / most_returns) | 1U;  // odd, so that no ring is left out of 16, 32, 64
   for (std::size_t i = 0; i < scan.size(); i += step) {
     if (scan.range_m[i] <= 0.0) continue;
     const Eigen::Vector3d& p_L = scan.point_L[i];

@@ -40,14 +40,17 @@ WatchedOdometry::Tracked WatchedOdometry::track(const Scan& scan, const MotionBu
 WatchedOdometry::Matching WatchedOdometry::begin() const {
   LidarOdometryConfig config;
   config.vgicp.odometry_prior = config.vgicp.tilt_prior = false;
-  return {FrontEnd(config, calibration_, false), Pose{}, false};
+  return {FrontEnd(config, calibration_, false), Pose{}, Pose{}, false};
 }
 
 Registration WatchedOdometry::match(Matching& matching, const Scan& scan, const Pose& X_OR,
                                     DeskewedScan& deskewed) const {
   deskewed = matching.front_end.deskewed(scan);
   const Registration result = matching.front_end.track(scan, deskewed);
-  if (!matching.began) matching.X_OM = X_OR * result.X_MR.inverse();
+  if (!matching.began) {
+    matching.X_OM = X_OR * result.X_MR.inverse();
+    matching.X_OR = X_OR;
+  }
   matching.began = true;
   return result;
 }
@@ -81,7 +84,8 @@ bool WatchedOdometry::is_suspect(const Pose& X_OR) {
 }
 
 bool WatchedOdometry::contradicts_scans(const Scan& scan, const Pose& X_OR) {
-  constexpr double apart = 0.3;  // m and rad: more than registration errs by where people pass
+  constexpr double apart = 0.3;  // m and rad: more than registration errs by where people pass, ...
+  constexpr double share = 0.1;  // ... and this of the way since: odometry that is a tenth off is not wrong
   constexpr int in_a_row = 3;
   if (!is_suspect(X_OR)) {
     beside_apart_ = 0;
@@ -96,7 +100,8 @@ bool WatchedOdometry::contradicts_scans(const Scan& scan, const Pose& X_OR) {
   }
   const Registration found = match(*beside_, scan, X_OR, deskewed);
   const bool measured = found.accepted && !found.lost && !found.displaced && found.unobserved_directions == 0;
-  const bool is_apart = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > apart;
+  const double way = size_of(beside_->X_OR.inverse() * X_OR);
+  const bool is_apart = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > apart + share * way;
   beside_apart_ = measured && is_apart ? beside_apart_ + 1 : 0;
   return beside_apart_ >= in_a_row;
 }

@@ -32,6 +32,7 @@ class WatchedOdometry {
   struct Matching {
     FrontEnd front_end;
     Pose X_OM;
+    Pose X_OR;  ///< by odometry where it began
     bool began = false;
   };
   struct Seen {

@@ -29,6 +29,24 @@ std::optional<Eigen::Vector3d> up_by_walls(std::span<const PlaneObservation> see
   return up.z() < 0.0 ? Eigen::Vector3d(-up) : up;
 }
 
+/// The directions in which some of these returns lie.
+template <class Counts>
+SeenDirections directions_of(const DeskewedScan& scan, const Counts& counts) {
+  constexpr int enough = 2;  // returns in a direction; one may be of an edge
+  constexpr std::size_t directions = SeenDirections().size();
+  std::array<int, directions> returns{};
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const Eigen::Vector3d& p_R = scan.point_R[i];
+    if (scan.range_m[i] <= 0.0 || !counts(p_R)) continue;
+    const Eigen::Vector3d ray_R = p_R - scan.X_RL.t;
+    const double turn = 0.5 + 0.5 * std::atan2(ray_R.y(), ray_R.x()) / std::numbers::pi;
+    ++returns[std::min(static_cast<std::size_t>(turn * directions), directions - 1)];
+  }
+  SeenDirections seen;
+  for (std::size_t k = 0; k < directions; ++k) seen[k] = returns[k] >= enough;
+  return seen;
+}
+
 }  // namespace
 
 bool is_floor(const PlaneObservation& seen) { return !seen.vertical && seen.plane_R.n.z() > 0.0; }
@@ -48,19 +66,12 @@ bool stands_on_lower(const DeskewedScan& scan, const Plane& lower_R, const Plane
 
 SeenDirections directions_of(const DeskewedScan& scan, const Plane& plane_R) {
   constexpr double near_m = 0.05;  // of a plane: noise, and the sway that a scan is bent by
-  constexpr int enough = 2;        // returns in a direction; one may be of an edge
-  constexpr std::size_t directions = SeenDirections().size();
-  std::array<int, directions> returns{};
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
-    const Eigen::Vector3d& p_R = scan.point_R[i];
-    if (scan.range_m[i] <= 0.0 || std::abs(plane_R.distance(p_R)) >= near_m) continue;
-    const Eigen::Vector3d ray_R = p_R - scan.X_RL.t;
-    const double turn = 0.5 + 0.5 * std::atan2(ray_R.y(), ray_R.x()) / std::numbers::pi;
-    ++returns[std::min(static_cast<std::size_t>(turn * directions), directions - 1)];
-  }
-  SeenDirections seen;
-  for (std::size_t k = 0; k < directions; ++k) seen[k] = returns[k] >= enough;
-  return seen;
+  return directions_of(scan, [&](const Eigen::Vector3d& p_R) { return std::abs(plane_R.distance(p_R)) < near_m; });
+}
+
+double share_of_directions(const DeskewedScan& scan, const Plane& plane_R) {
+  const std::size_t all = directions_of(scan, [](const Eigen::Vector3d&) { return true; }).count();
+  return all == 0 ? 0.0 : static_cast<double>(directions_of(scan, plane_R).count()) / static_cast<double>(all);
 }
 
 Eigen::Quaterniond level_by_planes(std::span<const PlaneObservation> seen) {

@@ -26,6 +26,9 @@ using SeenDirections = std::bitset<36>;
 /// The directions in which returns lie on a plane.
 [[nodiscard]] SeenDirections directions_of(const DeskewedScan& scan, const Plane& plane_R);
 
+/// Of the directions with any return, the share in which some lie on a plane.
+[[nodiscard]] double share_of_directions(const DeskewedScan& scan, const Plane& plane_R);
+
 /// Whether the robot stands on the lower one of two level planes, as beside a table: in most directions in which the
 /// lower one is seen the upper one is not. The ground outdoors is seen through windows, beyond the floor.
 [[nodiscard]] bool stands_on_lower(const DeskewedScan& scan, const Plane& lower_R, const Plane& upper_R);

@@ -47,16 +47,11 @@ double returns_below(const DeskewedScan& scan, const PlaneObservation& plane, do
   return count;
 }
 
-/// Height above a floor that is seen in so many directions.
+/// Height above a floor, and the share of the directions with returns in which that floor is seen.
 struct SeenHeight {
   double height_m = 0.0;
-  std::size_t directions = 0;
+  double share = 0.0;
 };
-
-std::optional<SeenHeight> with_all_directions(const std::optional<double>& height) {
-  if (!height) return std::nullopt;
-  return SeenHeight{*height, SeenDirections().size()};
-}
 
 std::optional<SeenHeight> height_in(const Scan& scan, const Calibration& calibration, std::uint64_t seed) {
   const DeskewedScan raw = as_deskewed(scan, calibration);
@@ -77,9 +72,12 @@ std::optional<SeenHeight> height_in(const Scan& scan, const Calibration& calibra
   for (const PlaneObservation& plane : seen)
     if (may_be_floor(plane) && (floor == nullptr || plane.points > floor->points)) floor = &plane;
   const auto by_plane = [&](const PlaneObservation& plane) {
-    return SeenHeight{depth(plane), directions_of(raw, plane.plane_R).count()};
+    return SeenHeight{depth(plane), share_of_directions(raw, plane.plane_R)};
   };
-  const auto by_lowest = [&] { return with_all_directions(height_by_lowest(raw)); };
+  const auto by_lowest = [&]() -> std::optional<SeenHeight> {
+    const std::optional<double> height = height_by_lowest(raw);  // all around
+    return height ? std::optional(SeenHeight{*height, 1.0}) : std::nullopt;
+  };
   if (floor == nullptr) return by_lowest();
   // A desk beside the LiDAR may hold more returns than the floor behind it.
   const PlaneObservation* lowest = floor;
@@ -95,15 +93,14 @@ std::optional<SeenHeight> height_in(const Scan& scan, const Calibration& calibra
 /// Median of the scans that see a floor; none where fewer than a third do.
 std::optional<SeenHeight> median_height(std::span<const Scan> scans, const Calibration& calibration,
                                         std::uint64_t seed) {
-  std::vector<double> heights;
-  std::vector<std::size_t> directions;
+  std::vector<double> heights, shares;
   for (const Scan& scan : scans)
     if (const std::optional<SeenHeight> seen = height_in(scan, calibration, seed)) {
       heights.push_back(seen->height_m);
-      directions.push_back(seen->directions);
+      shares.push_back(seen->share);
     }
   if (heights.empty() || 3 * heights.size() < scans.size()) return std::nullopt;
-  return SeenHeight{upper_median(heights), upper_median(directions)};
+  return SeenHeight{upper_median(heights), upper_median(shares)};
 }
 
 }  // namespace
@@ -115,21 +112,28 @@ std::optional<double> height_over_floor(std::span<const Scan> scans, const Calib
 }
 
 std::optional<double> height_over_floor(Recording& recording, const Calibration& calibration, std::uint64_t seed) {
-  constexpr std::size_t enough = 10, clear = SeenDirections().size() / 4;
-  constexpr double longest_s = 30.0;
+  constexpr std::size_t enough = 10, left_out = 20;  // scans in a row
+  constexpr double longest_s = 30.0, clear = 0.25;
   std::optional<Nanoseconds> first;
   std::optional<SeenHeight> best;
   std::vector<Scan> scans;
+  std::size_t skip = 0;
   const auto judge = [&] {
     const std::optional<SeenHeight> seen = median_height(scans, calibration, seed);
-    if (seen && (!best || seen->directions > best->directions)) best = seen;
+    if (seen && (!best || seen->share > best->share)) best = seen;
     scans.clear();
   };
-  for (SensorFrame frame; (!best || best->directions < clear) && recording.next(frame);) {
+  for (SensorFrame frame; (!best || best->share < clear) && recording.next(frame);) {
     if (!first) first = frame.scan.stamp;
     if (seconds(frame.scan.stamp - *first) > longest_s) break;
+    if (skip > 0) {
+      --skip;
+      continue;
+    }
     scans.push_back(std::move(frame.scan));
-    if (scans.size() == enough) judge();
+    if (scans.size() < enough) continue;
+    judge();
+    skip = left_out;
   }
   if (!best && !scans.empty()) judge();
   return best ? std::optional(best->height_m) : std::nullopt;

@@ -16,9 +16,9 @@ namespace plumbline::slam {
 [[nodiscard]] std::optional<double> height_over_floor(std::span<const Scan> scans, const Calibration& calibration,
                                                       std::uint64_t seed);
 
-/// The same by the first ten scans of a recording that show a floor in a quarter of all directions, or else by those
-/// ten of its first half minute that show it in most: a robot may start where furniture hides the floor, and what is
-/// seen through a window lies lower.
+/// The same by the first ten scans of a recording that show a floor in a quarter of the directions they see, or else by
+/// those ten of its first half minute that show it in most, of each thirty scans ten: a robot may start where furniture
+/// hides the floor, and what is seen through a window lies lower.
 [[nodiscard]] std::optional<double> height_over_floor(Recording& recording, const Calibration& calibration,
                                                       std::uint64_t seed);
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::uint32_t max_particles = 500;
 constexpr std::uint64_t max_poses = 10'000'000;
+constexpr double farthest_ns = 1e18;
 
 /// Takes values off the front of a payload.
 class Reader {
@@ -127,6 +128,8 @@ Estimate read_estimate(std::span<const std::byte> payload, bool localization, bo
   Nanoseconds before = std::numeric_limits<Nanoseconds>::min();
   for (std::uint64_t i = 0; i < head.poses; ++i) {
     const auto pose = reader.take<wire::Odometry>();
+    if (std::abs(static_cast<double>(pose.stamp_ns)) > farthest_ns)
+      throw ProcessFailure("has a pose at " + std::to_string(pose.stamp_ns) + " ns, thirty years from the recording");
     if (pose.stamp_ns <= before) throw ProcessFailure("has a trajectory whose times do not grow");
     before = pose.stamp_ns;
     estimate.trajectory.push_back({pose.stamp_ns, pose_of(pose.X_OR, "a pose of the trajectory")});
@@ -135,6 +138,8 @@ Estimate read_estimate(std::span<const std::byte> payload, bool localization, bo
     const auto x = reader.take<float>(), y = reader.take<float>(), z = reader.take<float>();
     const Eigen::Vector3f p(x, y, z);
     if (!p.allFinite()) throw ProcessFailure("has a point of the map that is not finite");
+    if (p.norm() > farthest_map_point_m)
+      throw ProcessFailure("has a point of the map farther than 50 km from the origin");
     estimate.map_F.push_back(p);
   }
   estimate.map_F = thin_map(estimate.map_F);

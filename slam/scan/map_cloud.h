@@ -53,6 +53,8 @@ struct CloudKeyframe {
 [[nodiscard]] std::vector<Eigen::Vector3f> map_cloud(std::span<const CloudKeyframe> keyframes,
                                                      const MapCloudConfig& config, std::span<const Plane> levels = {});
 
+inline constexpr float farthest_map_point_m = 5e4F;  ///< that thin_map() takes
+
 /// A map of others as map_cloud() gives ours: one mean point a voxel, so that what was seen more often does not count
 /// more. One of which less than a hundredth of the points share a voxel stays as it is.
 [[nodiscard]] std::vector<Eigen::Vector3f> thin_map(const std::vector<Eigen::Vector3f>& points_F,

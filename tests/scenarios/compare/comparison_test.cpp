@@ -53,6 +53,20 @@ TEST(Comparison, TwiceTheErrorIsWorse) {
   EXPECT_EQ(compared(b, a).finding, Finding::better);
 }
 
+// All changes of one size, so that the typical one is none: 21 walks got worse and 9 better.
+TEST(Comparison, TheSideIsThatOfTheRanksWhereTheTypicalChangeIsNone) {
+  std::vector<double> before(30, 1.0), after(30, 1.0);
+  for (std::size_t i = 0; i < 30; ++i) (i < 21 ? after : before)[i] = 2.0;
+  const Comparison comparison = compared(slam_rows(before), slam_rows(after));
+  const ComparedValue& ate = value_of(comparison, "ate_aligned_rmse_m");
+  EXPECT_EQ(ate.shift, 1.0);
+  EXPECT_LT(*ate.p, 0.05);
+  EXPECT_TRUE(ate.finding == Finding::worse || ate.finding == Finding::worse_alone);
+  const Comparison other = compared(slam_rows(after), slam_rows(before));
+  const ComparedValue& back = value_of(other, "ate_aligned_rmse_m");
+  EXPECT_TRUE(back.finding == Finding::better || back.finding == Finding::better_alone);
+}
+
 TEST(Comparison, FewPairsShowNothing) {
   const Comparison comparison = compared(slam_rows({1, 2, 3, 4, 5}), slam_rows({2, 4, 6, 8, 10}));
   EXPECT_EQ(comparison.tests, 0U);

@@ -94,6 +94,27 @@ TEST(CarriedRobot, IsStillSureWhereNoOtherPoseFits) {
     }
 }
 
+// On equal storeys it would otherwise never be found again. It is lost since its odometry leads elsewhere; it does not
+// stop.
+TEST(CarriedRobot, IsFoundOnItsStoreyWhereItNeverStood) {
+  constexpr double rise_m = 3.0;
+  const synthetic::House house = synthetic::corridor_house();
+  synthetic::WalkConfig config;
+  config.duration_s = 30.0;
+  const synthetic::Recording recording =
+      kidnapped(synthetic::walk(house, synthetic::corridor_house_walk(), config), 6 * second, 20 * second);
+  MethodInput input = input_for(recording, on_top(synthetic::plan_of(house), synthetic::plan_of(house), rise_m), true);
+  input.prior.storey = "ground";
+  const Answers result = run(recording, input);
+  const bool lost = std::any_of(result.outputs.begin(), result.outputs.end(),
+                                [](const Output& output) { return output.state == State::lost; });
+  EXPECT_TRUE(lost);
+  const Output& last = result.outputs.back();
+  EXPECT_EQ(last.state, State::converged);
+  ASSERT_TRUE(last.X_FR.has_value());
+  EXPECT_LT((last.X_FR->t - recording.truth.back().X_FR.t).norm(), 0.1);
+}
+
 TEST(CarriedRobot, IsFoundOnAnotherStoreyThanItsStart) {
   constexpr double rise_m = 3.0;
   const synthetic::House ground = synthetic::one_room();

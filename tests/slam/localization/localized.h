@@ -39,4 +39,30 @@ inline Answers run(const synthetic::Recording& recording, const MethodInput& inp
   return result;
 }
 
+/// The walk with the time from t0 to t1 cut out: odometry goes on as if nothing had happened, the robot is elsewhere.
+/// In the air there is nothing received for `silent`.
+inline synthetic::Recording kidnapped(const synthetic::Recording& recording, Nanoseconds t0, Nanoseconds t1,
+                                      Nanoseconds silent = 0) {
+  synthetic::Recording result;
+  result.calibration = recording.calibration;
+  Pose X_OR_t0, X_OR_t1;
+  for (const Odometry& o : recording.odometry) {
+    if (o.stamp <= t0) X_OR_t0 = o.X_OR;
+    if (o.stamp <= t1) X_OR_t1 = o.X_OR;
+  }
+  const Pose X_patch = X_OR_t0 * X_OR_t1.inverse();
+  for (const Odometry& o : recording.odometry) {
+    if (o.stamp <= t0) result.odometry.push_back(o);
+    if (o.stamp > t1) result.odometry.push_back({o.stamp - (t1 - t0) + silent, X_patch * o.X_OR});
+  }
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    Scan scan = recording.scans[i];
+    if (scan.stamp > t0 && scan.stamp <= t1 + 200'000'000) continue;
+    if (scan.stamp > t1) scan.stamp -= t1 - t0 - silent;
+    result.scans.push_back(scan);
+    result.truth.push_back({scan.stamp, recording.truth[i].X_FR});
+  }
+  return result;
+}
+
 }  // namespace plumbline::slam

@@ -83,6 +83,11 @@ double height_by(const std::vector<LevelPlane>& below) {
   std::vector<PlaneObservation> planes;
   DeskewedScan scan;
   scan.rings = 1;
+  const auto add = [&](double azimuth, double range_m, double z) {
+    scan.point_R.emplace_back(range_m * std::cos(azimuth), range_m * std::sin(azimuth), z);
+    scan.range_m.push_back(scan.point_R.back().norm());
+  };
+  for (int k = 0; k < 144; ++k) add((k + 0.5) * std::numbers::pi / 72.0 - std::numbers::pi, 10.0, 0.2);  // walls
   for (const LevelPlane& level : below) {
     PlaneObservation plane;
     plane.plane_R = {Eigen::Vector3d::UnitZ(), level.down_m};
@@ -90,9 +95,7 @@ double height_by(const std::vector<LevelPlane>& below) {
     planes.push_back(plane);
     for (int direction = level.first; direction <= level.last; ++direction)
       for (const double off : {0.3, 0.5, 0.7}) {
-        const double azimuth = (direction + off) * std::numbers::pi / 18.0 - std::numbers::pi;
-        scan.point_R.emplace_back(level.range_m * std::cos(azimuth), level.range_m * std::sin(azimuth), -level.down_m);
-        scan.range_m.push_back(scan.point_R.back().norm());
+        add((direction + off) * std::numbers::pi / 18.0 - std::numbers::pi, level.range_m, -level.down_m);
       }
   }
   scan.columns = static_cast<int>(scan.range_m.size());

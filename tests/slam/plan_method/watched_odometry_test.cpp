@@ -104,6 +104,23 @@ TEST(WatchedOdometry, ARecordASecondIsTooFew) {
 
 TEST(WatchedOdometry, WithoutEitherTheWayIsNotKnown) { EXPECT_GT(follow(silent(6.0, 100.0), 6.0).unknown, 20); }
 
+// Along a bare corridor the view stays as it is, and odometry drifts by 3 %.
+TEST(WatchedOdometry, DriftAlongACorridorIsNoContradiction) {
+  synthetic::House corridor = synthetic::one_room(40.0, 2.0);
+  synthetic::WalkConfig walk;
+  walk.vibration = 0.0;
+  walk.odometry_scale = 1.03;
+  walk.duration_s = 25.0;
+  const synthetic::Recording recording = synthetic::walk(corridor, {{5.0, 1.0}, {35.0, 1.0}}, walk);
+  WatchedOdometry watched(recording.calibration);
+  MotionBuffer motion;
+  for (const Odometry& record : recording.odometry) motion.add(record);
+  for (const Scan& scan : recording.scans) {
+    (void)watched.track(scan, motion, 0);
+    ASSERT_FALSE(watched.is_by_scans()) << seconds(scan.stamp);
+  }
+}
+
 // Wheels spin for 4 s under a robot that stands, and then it stands on: nothing but the view tells.
 TEST(WatchedOdometry, ScansTakeOverWhereWheelsSpin) {
   for (const double speed_mps : {0.3, 0.7}) {

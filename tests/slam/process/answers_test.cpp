@@ -151,6 +151,7 @@ TEST(ProcessAnswers, ATrajectoryGoesForward) {
   EXPECT_EQ(estimate({-5, 0}).trajectory.size(), 2U)
       << "clouds stamped at the start of a sweep, before the first record";
   EXPECT_THROW((void)estimate({-5, -6}), ProcessFailure);
+  EXPECT_THROW((void)estimate({-9'000'000'000'000'000'000, 0}), ProcessFailure);
 }
 
 }  // namespace
