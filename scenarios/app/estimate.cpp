@@ -17,15 +17,12 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
-#include "scenarios/app/mount_check.h"
-#include "scenarios/app/odometry_axes.h"
-#include "scenarios/app/odometry_gaps.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/poorer_recording.h"
 #include "scenarios/app/poverty_options.h"
 #include "scenarios/app/recording_check.h"
+#include "scenarios/app/recording_doubts.h"
 #include "scenarios/app/recording_summary.h"
-#include "scenarios/app/scan_gaps.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/manifest.h"
@@ -62,10 +59,7 @@ struct EstimateArguments {
   double yaw_deg = 0.0;
   std::string storey;
   bool force = false, unchecked = false;
-  std::optional<Argument> seed_option;
-  std::optional<Argument> yaw_option;
-  std::optional<Argument> furniture_option;
-  std::optional<Argument> sensors_option;
+  std::optional<Argument> seed_option, yaw_option, furniture_option, sensors_option;
 };
 
 /// The method asked for, whose name may say .lidar as in a scenario.
@@ -188,11 +182,8 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
 struct Answer {
   MethodRecord record;  ///< on the recording's own clock
   ScansRead scans;
-  double recorded_s = 0.0;  ///< from the first scan to the last
-  OdometryGaps gaps;
-  OdometryAxes axes;
-  std::optional<std::string> turned_mount;
-  ScanGaps scan_gaps;
+  double recorded_s = 0.0;          ///< from the first scan to the last
+  std::vector<std::string> doubts;  ///< of the records that the method got
 };
 
 Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const slam::MethodInput& input,
@@ -200,52 +191,25 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   Progress progress(std::string(row.name), {});
   std::optional<slam::Nanoseconds> first;
   slam::Nanoseconds last = 0;
-  ScansRead scans;
-  OdometryGaps gaps;
-  OdometryAxes axes;
-  MountCheck mount;
-  ScanGaps scan_gaps;
+  RecordingDoubts doubts;
   const SensorSource source = [&](slam::SensorFrame& frame) {
     if (!recording.next(frame)) return false;
     last = frame.scan.stamp;
     if (!first) first = last;
-    scans.add(frame.scan);
-    gaps.add(frame);
-    scan_gaps.add(last);
-    axes.add(frame);
-    mount.add(frame);
+    doubts.add(frame);
     progress.at(slam::seconds(last - *first));
     return true;
   };
   std::vector<std::unique_ptr<MethodRunner>> methods;
   methods.push_back(std::make_unique<MethodRunner>(row, input, sensors));
-  MethodRecord record = std::move(run_pipeline(source, std::move(methods), {}).front());
-  std::vector<slam::StampedPose> known;
-  for (const slam::StampedPose& pose : record.causal)
-    if (!said_lost(record, pose.stamp)) known.push_back(pose);
-  Answer answer{{},       scans, slam::seconds(last - first.value_or(last)),
-                gaps,     axes,  mount.warning(known, input.calibration.X_RL.q),
-                scan_gaps};
-  shift_times(record, recording.origin());
-  answer.record = std::move(record);
+  Answer answer;
+  answer.record = std::move(run_pipeline(source, std::move(methods), {}).front());
+  answer.scans = doubts.scans();
+  answer.recorded_s = slam::seconds(last - first.value_or(last));
+  answer.doubts =
+      doubts.warnings(answer.record, input.calibration.X_RL.q, recording.has_odometry() && sensors == Sensors::all);
+  shift_times(answer.record, recording.origin());
   return answer;
-}
-
-/// What of the records that the method got a user should know.
-std::vector<std::string> doubts_about(const Answer& answer, bool with_odometry) {
-  std::vector<std::string> all;
-  if (const auto gaps = answer.scan_gaps.warning()) all.push_back(*gaps);
-  if (2 * answer.scans.empty > answer.scans.count)
-    all.push_back(
-        std::to_string(answer.scans.empty) + " of " + std::to_string(answer.scans.count) +
-        " scans hold no return: their points are at the origin, farther than 1 km or no numbers, or there are none");
-  if (!answer.record.crashed && answer.record.causal.empty())
-    all.push_back("the method gave no pose at any of " + std::to_string(answer.scans.count) + " scans");
-  if (answer.turned_mount) all.push_back(*answer.turned_mount);
-  if (!with_odometry) return all;
-  for (const std::string& said : answer.axes.warnings()) all.push_back(said);
-  if (const auto gaps = answer.gaps.warning()) all.push_back(*gaps);
-  return all;
 }
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
@@ -270,11 +234,6 @@ std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam:
   if (moved_by) tree.set("plan_moved_by_m", number_list(*moved_by));
   if (!input.config.is_null()) tree.set("config", input.config);
   return write_yaml(tree);
-}
-
-/// timings.json, as that of a run.
-std::string write_cost(const Answer& answer, double start_s) {
-  return write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1});
 }
 
 /// The table with the process that --method gives, if it does.
@@ -323,14 +282,16 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodRecord& record = answer.record;
   for (const std::string& said : warnings_of(*recording))
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
-  for (const std::string& said : doubts_about(answer, recording->has_odometry() && choice.sensors == Sensors::all))
+  for (const std::string& said : answer.doubts)
     print_note("plumbline: warning: " + options.input.recording + ": " + said);
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml",
              describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, poverty,
                       answer.scans, moved_by, altered.files));
-  write_file(directory.staging() + "/timings.json", write_cost(answer, start_s));
+  write_file(
+      directory.staging() + "/timings.json",
+      write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1}));
   directory.commit();
   if (record.crashed) {
     print_note("plumbline: method '" + record.name + "' crashed: " + record.error);
