@@ -17,9 +17,9 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/degradation_options.h"
+#include "scenarios/app/degraded_recording.h"
 #include "scenarios/app/open_recording.h"
-#include "scenarios/app/poorer_recording.h"
-#include "scenarios/app/poverty_options.h"
 #include "scenarios/app/recording_check.h"
 #include "scenarios/app/recording_doubts.h"
 #include "scenarios/app/recording_summary.h"
@@ -53,7 +53,7 @@ struct EstimateArguments {
   std::string plan_furniture = "as_planned";
   std::string config;
   std::string sensors = "all";
-  PovertyOptions poverty;
+  DegradationOptions degradation;
   std::string out;
   std::uint64_t seed = 1;
   double yaw_deg = 0.0;
@@ -214,13 +214,14 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
 
 /// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
 std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
-                     const slam::MethodInput& input, Sensors sensors, const Poverty& poverty, const ScansRead& scans,
-                     const std::optional<Eigen::Vector3d>& moved_by, const std::vector<std::string>& altered) {
+                     const slam::MethodInput& input, Sensors sensors, const Degradation& degradation,
+                     const ScansRead& scans, const std::optional<Eigen::Vector3d>& moved_by,
+                     const std::vector<std::string>& altered) {
   const slam::RecordingInfo& info = recording.info();
   Tree tree = Tree::map();
   tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
   if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
-  describe(poverty, tree);
+  describe(degradation, tree);
   const auto add = [&](const char* key, const std::vector<std::string>& sentences) {
     Tree list = Tree::list();
     for (const std::string& said : sentences) list.push(said);
@@ -253,11 +254,11 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   const MethodChoice choice = find_choice(options, table);
   const slam::MethodRow& row = *row_of(choice.method, table);
   check_plan_options(options, row);
-  const Poverty poverty = options.poverty.value();
+  const Degradation degradation = options.degradation.value();
   const AlteredRecording altered = altered_in_recording(options.input.recording);
   refuse_altered(altered.folder, altered.files, options.unchecked);
-  options.input.topics.point_times = !poverty.no_times;
-  const std::unique_ptr<slam::Recording> recording = poorer(open_any_recording(options.input), poverty);
+  options.input.topics.point_times = !degradation.no_times;
+  const std::unique_ptr<slam::Recording> recording = degraded(open_any_recording(options.input), degradation);
   std::optional<Eigen::Vector3d> moved_by;
   slam::MethodInput input = make_input(options, row, *recording, moved_by);
   if (moved_by)
@@ -266,9 +267,9 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
                flow_text(number_list(*moved_by)) + " m");
   const bool is_height_said = recording->info().mount.height_m.has_value();
   const std::optional<double> height =
-      is_height_said
-          ? std::nullopt
-          : slam::height_over_floor(*poorer(open_any_recording(options.input), poverty), input.calibration, input.seed);
+      is_height_said ? std::nullopt
+                     : slam::height_over_floor(*degraded(open_any_recording(options.input), degradation),
+                                               input.calibration, input.seed);
   if (height) input.calibration.sensor_height_m = *height;
   if (!is_height_said && !height)
     print_note("plumbline: warning: " + options.input.recording +
@@ -287,7 +288,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   write_method(directory.staging(), record);
   write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
   write_file(directory.staging() + "/estimate.yaml",
-             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, poverty,
+             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, degradation,
                       answer.scans, moved_by, altered.files));
   write_file(
       directory.staging() + "/timings.json",
@@ -333,7 +334,7 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
                   "what the method gets: all records, or lidar, without odometry and IMU; names its files NAME.lidar "
                   "[all]")
           .one_of({"all", "lidar"});
-  options->poverty.declare(line);
+  options->degradation.declare(line);
   line.option("--plan", options->plan, "building, for methods that localize in a plan");
   options->furniture_option =
       line.option("--plan-furniture", options->plan_furniture,

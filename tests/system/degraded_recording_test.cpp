@@ -74,7 +74,7 @@ TEST_F(Recordings, LidarAloneIsAnEstimateOfItsOwn) {
 }
 
 TEST_F(Recordings, EveryNthScanAndPlainerScansAreEstimatesOfTheSameWalk) {
-  const std::string walk = this->walk("walk"), whole = folder_ / "whole", poor = folder_ / "poor";
+  const std::string walk = this->walk("walk"), whole = folder_ / "whole", degraded = folder_ / "degraded";
   const auto lines = [](const std::string& file) {
     std::istringstream in(read_file(file));
     std::vector<std::string> stamps;
@@ -84,16 +84,16 @@ TEST_F(Recordings, EveryNthScanAndPlainerScansAreEstimatesOfTheSameWalk) {
   ASSERT_EQ(plumbline({"estimate", walk, "--method", "vgicp", "-o", whole}).code, 0);
   EXPECT_EQ(read_file(whole + "/estimate.yaml").find("every"), std::string::npos);
   const Outcome outcome =
-      plumbline({"estimate", walk, "--method", "vgicp", "--every", "4", "--without", "rings,times", "-o", poor});
+      plumbline({"estimate", walk, "--method", "vgicp", "--every", "4", "--without", "rings,times", "-o", degraded});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const std::string said = read_file(poor + "/estimate.yaml");
+  const std::string said = read_file(degraded + "/estimate.yaml");
   EXPECT_NE(said.find("every: 4"), std::string::npos) << said;
   for (const char* word : {"without:", "rings", "times"}) EXPECT_NE(said.find(word), std::string::npos) << said;
-  const auto all = lines(whole + "/vgicp.tum"), some = lines(poor + "/vgicp.tum");
+  const auto all = lines(whole + "/vgicp.tum"), some = lines(degraded + "/vgicp.tum");
   ASSERT_EQ(some.size(), (all.size() + 3) / 4);
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i], all[4 * i]);
-  ASSERT_EQ(plumbline({"score", poor, "--reference", walk + "/truth.tum"}).code, 0);
-  EXPECT_EQ(nlohmann::json::parse(read_file(poor + "/score.json"))["silence"]["silent_s"], 0.0);
+  ASSERT_EQ(plumbline({"score", degraded, "--reference", walk + "/truth.tum"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_file(degraded + "/score.json"))["silence"]["silent_s"], 0.0);
   refuse({walk, "--method", "vgicp", "--every", "0"}, "plumbline: --every", "estimate --help");
   refuse({walk, "--method", "vgicp", "--without", "points"}, "plumbline: --without", "estimate --help");
   refuse({walk, "--method", "vgicp", "--max-range", "0"}, "plumbline: --max-range", "estimate --help");

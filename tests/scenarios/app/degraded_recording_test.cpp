@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/degraded_recording.h"
 
 #include <gtest/gtest.h>
 
@@ -58,8 +58,8 @@ class Walk final : public slam::Recording {
   slam::RecordingInfo info_;
 };
 
-std::vector<slam::SensorFrame> read(int scans, const Poverty& poverty) {
-  const auto recording = poorer(std::make_unique<Walk>(scans), poverty);
+std::vector<slam::SensorFrame> read(int scans, const Degradation& degradation) {
+  const auto recording = degraded(std::make_unique<Walk>(scans), degradation);
   EXPECT_EQ(recording->origin(), 77);
   EXPECT_TRUE(recording->has_odometry());
   std::vector<slam::SensorFrame> frames;
@@ -67,7 +67,7 @@ std::vector<slam::SensorFrame> read(int scans, const Poverty& poverty) {
   return frames;
 }
 
-TEST(PoorerRecording, EveryThirdScanComesWithAllRecordsSinceTheOneBefore) {
+TEST(DegradedRecording, EveryThirdScanComesWithAllRecordsSinceTheOneBefore) {
   const auto frames = read(9, {.every = 3});
   ASSERT_EQ(frames.size(), 3U);  // scans 0, 3 and 6; 7 and 8 are followed by none
   slam::Nanoseconds imu = 0, odometry = 0, covariance = 0;
@@ -85,12 +85,12 @@ TEST(PoorerRecording, EveryThirdScanComesWithAllRecordsSinceTheOneBefore) {
   }
 }
 
-TEST(PoorerRecording, ARecordingThatIsTooShortHasItsFirstScan) {
+TEST(DegradedRecording, ARecordingThatIsTooShortHasItsFirstScan) {
   EXPECT_EQ(read(3, {.every = 1000}).size(), 1U);
   EXPECT_EQ(read(0, {.every = 2}).size(), 0U);
 }
 
-TEST(PoorerRecording, WithoutRingsThePointsStayInTheirOrder) {
+TEST(DegradedRecording, WithoutRingsThePointsStayInTheirOrder) {
   const slam::Scan whole = frame_at(0).scan;
   const slam::SensorFrame frame = read(1, {.no_rings = true}).front();
   EXPECT_EQ(frame.scan.rings, 1);
@@ -102,7 +102,7 @@ TEST(PoorerRecording, WithoutRingsThePointsStayInTheirOrder) {
   EXPECT_TRUE(frame.packets.empty()) << "they would tell";
 }
 
-TEST(PoorerRecording, WithoutTimesEveryReturnHasTheStampOfTheScan) {
+TEST(DegradedRecording, WithoutTimesEveryReturnHasTheStampOfTheScan) {
   const slam::Scan whole = frame_at(0).scan;
   const slam::SensorFrame frame = read(1, {.no_times = true}).front();
   EXPECT_EQ(frame.scan.rings, 4);
@@ -124,11 +124,11 @@ std::vector<int> kept(const slam::SensorFrame& frame) {
   return all;
 }
 
-TEST(PoorerRecording, ReturnsFartherThanItsRangeAreLost) {
+TEST(DegradedRecording, ReturnsFartherThanItsRangeAreLost) {
   EXPECT_EQ(kept(read(1, {.within_m = 5.0}).front()), (std::vector<int>{1, 2, 3, 4}));
 }
 
-TEST(PoorerRecording, OfThreeReturnsOneIsDrawnTheSameEachTime) {
+TEST(DegradedRecording, OfThreeReturnsOneIsDrawnTheSameEachTime) {
   const auto some = read(40, {.one_of = 3}), again = read(40, {.one_of = 3});
   std::size_t number = 0;
   for (std::size_t f = 0; f < some.size(); ++f) {
@@ -152,8 +152,8 @@ slam::SensorFrame fan(int) {
   return frame;
 }
 
-TEST(PoorerRecording, BeamsAreSpreadOverTheElevations) {
-  const auto recording = poorer(std::make_unique<Walk>(1, fan), {.beams = 3});
+TEST(DegradedRecording, BeamsAreSpreadOverTheElevations) {
+  const auto recording = degraded(std::make_unique<Walk>(1, fan), {.beams = 3});
   slam::SensorFrame frame;
   ASSERT_TRUE(recording->next(frame));
   std::vector<int> tenths;
@@ -163,10 +163,10 @@ TEST(PoorerRecording, BeamsAreSpreadOverTheElevations) {
   EXPECT_EQ(tenths, (std::vector<int>{-61, -60, -59, -1, 0, 1, 59, 60, 61}));
 }
 
-TEST(PoorerRecording, ARecordingOfWhichNothingIsKeptBackIsItself) {
+TEST(DegradedRecording, ARecordingOfWhichNothingIsKeptBackIsItself) {
   auto walk = std::make_unique<Walk>(2);
   const slam::Recording* same = walk.get();
-  EXPECT_EQ(poorer(std::move(walk), {}).get(), same);
+  EXPECT_EQ(degraded(std::move(walk), {}).get(), same);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/degraded_recording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +39,11 @@ std::vector<double> beams_of(const slam::Scan& scan, int beams) {
   return spread;
 }
 
-class PoorerRecording final : public slam::Recording {
+class DegradedRecording final : public slam::Recording {
  public:
-  PoorerRecording(std::unique_ptr<slam::Recording> recording, const Poverty& poverty)
-      : recording_(std::move(recording)), poverty_(poverty) {
-    if (poverty_.every < 1) throw InternalError("every Nth scan: N must be at least 1");
+  DegradedRecording(std::unique_ptr<slam::Recording> recording, const Degradation& degradation)
+      : recording_(std::move(recording)), degradation_(degradation) {
+    if (degradation_.every < 1) throw InternalError("every Nth scan: N must be at least 1");
   }
 
   [[nodiscard]] const slam::RecordingInfo& info() const override { return recording_->info(); }
@@ -55,7 +55,7 @@ class PoorerRecording final : public slam::Recording {
 
   [[nodiscard]] bool next(slam::SensorFrame& frame) override {
     slam::SensorFrame skipped, out;
-    for (int left = first_ ? 0 : poverty_.every - 1; left >= 0; --left) {
+    for (int left = first_ ? 0 : degradation_.every - 1; left >= 0; --left) {
       if (!recording_->next(out)) return false;
       prepend(out.imu, skipped.imu);
       prepend(out.odometry, skipped.odometry);
@@ -63,24 +63,24 @@ class PoorerRecording final : public slam::Recording {
       if (left > 0) skipped = std::exchange(out, {});
     }
     first_ = false;
-    if (poverty_.thins()) thin(out.scan);
+    if (degradation_.thins()) thin(out.scan);
     impoverish(out.scan);
-    if (poverty_.no_rings || poverty_.no_times || poverty_.thins()) out.packets.clear();  // they say all
+    if (degradation_.no_rings || degradation_.no_times || degradation_.thins()) out.packets.clear();  // they say all
     frame = std::move(out);
     return true;
   }
 
  private:
   void impoverish(slam::Scan& scan) const {
-    if (poverty_.no_rings) {
+    if (degradation_.no_rings) {
       scan.rings = 1;
       scan.columns = static_cast<int>(scan.size());
     }
-    if (poverty_.no_times) std::fill(scan.offset_ns.begin(), scan.offset_ns.end(), 0);
+    if (degradation_.no_times) std::fill(scan.offset_ns.begin(), scan.offset_ns.end(), 0);
   }
 
   void thin(slam::Scan& scan) {
-    if (beams_.empty() && poverty_.beams > 0) beams_ = beams_of(scan, poverty_.beams);
+    if (beams_.empty() && degradation_.beams > 0) beams_ = beams_of(scan, degradation_.beams);
     for (std::size_t i = 0; i < scan.size(); ++i) {
       if (scan.range_m[i] <= 0.0 || is_kept(scan, i)) continue;
       scan.range_m[i] = 0.0;
@@ -90,18 +90,18 @@ class PoorerRecording final : public slam::Recording {
 
   [[nodiscard]] bool is_kept(const slam::Scan& scan, std::size_t i) const {
     constexpr double half_width_rad = 0.12 * std::numbers::pi / 180.0;
-    if (poverty_.within_m > 0.0 && scan.range_m[i] > poverty_.within_m) return false;
-    if (poverty_.beams > 0 && std::none_of(beams_.begin(), beams_.end(), [&](double beam) {
+    if (degradation_.within_m > 0.0 && scan.range_m[i] > degradation_.within_m) return false;
+    if (degradation_.beams > 0 && std::none_of(beams_.begin(), beams_.end(), [&](double beam) {
           return std::abs(elevation(scan.point_L[i]) - beam) < half_width_rad;
         }))
       return false;
-    return poverty_.one_of == 1 ||
-           draws_.uniform(static_cast<std::uint64_t>(scan.stamp), static_cast<std::uint32_t>(i)) * poverty_.one_of <
+    return degradation_.one_of == 1 ||
+           draws_.uniform(static_cast<std::uint64_t>(scan.stamp), static_cast<std::uint32_t>(i)) * degradation_.one_of <
                1.0;
   }
 
   std::unique_ptr<slam::Recording> recording_;
-  Poverty poverty_;
+  Degradation degradation_;
   Stream draws_{1, "recording.thinned"};  // not of the run's seed: methods of any seed get the same returns
   std::vector<double> beams_;             ///< of the first scan with returns
   bool first_ = true;
@@ -109,9 +109,9 @@ class PoorerRecording final : public slam::Recording {
 
 }  // namespace
 
-std::unique_ptr<slam::Recording> poorer(std::unique_ptr<slam::Recording> recording, const Poverty& poverty) {
-  if (!poverty.any()) return recording;
-  return std::make_unique<PoorerRecording>(std::move(recording), poverty);
+std::unique_ptr<slam::Recording> degraded(std::unique_ptr<slam::Recording> recording, const Degradation& degradation) {
+  if (!degradation.any()) return recording;
+  return std::make_unique<DegradedRecording>(std::move(recording), degradation);
 }
 
 }  // namespace plumbline::scenarios

@@ -6,12 +6,12 @@
 
 #include "bim/config/tree.h"
 #include "scenarios/app/command_line.h"
-#include "scenarios/app/poorer_recording.h"
+#include "scenarios/app/degraded_recording.h"
 
 namespace plumbline::scenarios {
 
 /// Options of `estimate` that degrade a recording: fewer scans, rings, point times or returns.
-struct PovertyOptions {
+struct DegradationOptions {
   int every = 1;
   std::vector<std::string> without;
   double max_range_m = 0.0;
@@ -19,10 +19,10 @@ struct PovertyOptions {
   int beams = 0;
 
   void declare(CommandLine& line);
-  [[nodiscard]] Poverty value() const;
+  [[nodiscard]] Degradation value() const;
 };
 
 /// What differs from the recording, as keys of estimate.yaml.
-void describe(const Poverty& poverty, Tree& tree);
+void describe(const Degradation& degradation, Tree& tree);
 
 }  // namespace plumbline::scenarios

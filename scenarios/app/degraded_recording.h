@@ -8,7 +8,7 @@
 namespace plumbline::scenarios {
 
 /// What a recording keeps back, as a slower or plainer sensor would.
-struct Poverty {
+struct Degradation {
   int every = 1;          ///< the first scan and every Nth after it are given; at least 1
   bool no_rings = false;  ///< a scan is one ring, with a column for each return slot
   bool no_times = false;  ///< all returns have the scan's stamp
@@ -23,7 +23,7 @@ struct Poverty {
 
 /// The recording with fewer or plainer scans and with all its odometry and IMU: records up to a scan that is left out
 /// come with the next one that is given.
-[[nodiscard]] std::unique_ptr<slam::Recording> poorer(std::unique_ptr<slam::Recording> recording,
-                                                      const Poverty& poverty);
+[[nodiscard]] std::unique_ptr<slam::Recording> degraded(std::unique_ptr<slam::Recording> recording,
+                                                        const Degradation& degradation);
 
 }  // namespace plumbline::scenarios

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/app/poverty_options.h"
+#include "scenarios/app/degradation_options.h"
 
 #include <algorithm>
 
 namespace plumbline::scenarios {
 
-void PovertyOptions::declare(CommandLine& line) {
+void DegradationOptions::declare(CommandLine& line) {
   constexpr int most = 1000;
   constexpr double farthest_m = 10'000.0;
   line.option("--every", every, "uses every Nth scan, with all odometry and IMU in between [1]").range(1, most);
@@ -20,7 +20,7 @@ void PovertyOptions::declare(CommandLine& line) {
   line.option("--one-of", one_of, "keep one return in N, drawn at random [1]").range(1, most);
 }
 
-Poverty PovertyOptions::value() const {
+Degradation DegradationOptions::value() const {
   const auto lacks = [&](const char* what) { return std::find(without.begin(), without.end(), what) != without.end(); };
   return {.every = every,
           .no_rings = lacks("rings"),
@@ -30,15 +30,15 @@ Poverty PovertyOptions::value() const {
           .beams = beams};
 }
 
-void describe(const Poverty& poverty, Tree& tree) {
-  if (poverty.every != 1) tree.set("every", poverty.every);
+void describe(const Degradation& degradation, Tree& tree) {
+  if (degradation.every != 1) tree.set("every", degradation.every);
   Tree without = Tree::list();
-  if (poverty.no_rings) without.push("rings");
-  if (poverty.no_times) without.push("times");
-  if (poverty.no_rings || poverty.no_times) tree.set("without", without);
-  if (poverty.within_m > 0.0) tree.set("max_range_m", poverty.within_m);
-  if (poverty.beams != 0) tree.set("beams", poverty.beams);
-  if (poverty.one_of != 1) tree.set("one_of", poverty.one_of);
+  if (degradation.no_rings) without.push("rings");
+  if (degradation.no_times) without.push("times");
+  if (degradation.no_rings || degradation.no_times) tree.set("without", without);
+  if (degradation.within_m > 0.0) tree.set("max_range_m", degradation.within_m);
+  if (degradation.beams != 0) tree.set("beams", degradation.beams);
+  if (degradation.one_of != 1) tree.set("one_of", degradation.one_of);
 }
 
 }  // namespace plumbline::scenarios
