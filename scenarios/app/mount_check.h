@@ -23,15 +23,15 @@ struct CommonRotation {
 [[nodiscard]] std::optional<CommonRotation> common_rotation(const std::vector<Eigen::Vector3d>& a,
                                                             const std::vector<Eigen::Vector3d>& b);
 
-/// Whether the LiDAR is turned against its mount: ways and turns by scans beside those of odometry, or beside the
-/// gyro's turns where there is no odometry, as in hand-eye calibration.
+/// Whether the LiDAR is turned against its mount: translations and rotations by scans beside those of odometry, or
+/// rotations beside the gyro's where there is no odometry, as in hand-eye calibration.
 class MountCheck {
  public:
   void add(const slam::SensorFrame& frame);
   /// A sentence for the user; nothing where the mount fits or too little moves. `X_MR` are the poses of a method with
-  /// stamps of scans, those at which it is LOST left out; `told_RL` is the rotation of the mount.
+  /// stamps of scans, those at which it is LOST left out; `mount_RL` is the rotation of the mount as it is given.
   [[nodiscard]] std::optional<std::string> warning(const std::vector<slam::StampedPose>& X_MR,
-                                                   const Eigen::Quaterniond& told_RL) const;
+                                                   const Eigen::Quaterniond& mount_RL) const;
 
  private:
   struct Motion {

@@ -14,7 +14,7 @@ void RecordingDoubts::add(const slam::SensorFrame& frame) {
   mount_.add(frame);
 }
 
-std::vector<std::string> RecordingDoubts::warnings(const MethodRecord& record, const Eigen::Quaterniond& told_RL,
+std::vector<std::string> RecordingDoubts::warnings(const MethodRecord& record, const Eigen::Quaterniond& mount_RL,
                                                    bool with_odometry) const {
   std::vector<std::string> all;
   const auto add = [&](const std::optional<std::string>& said) {
@@ -30,7 +30,7 @@ std::vector<std::string> RecordingDoubts::warnings(const MethodRecord& record, c
   std::vector<slam::StampedPose> known;
   for (const slam::StampedPose& pose : record.causal)
     if (!said_lost(record, pose.stamp)) known.push_back(pose);
-  add(mount_.warning(known, told_RL));
+  add(mount_.warning(known, mount_RL));
   if (!with_odometry) return all;
   for (const std::string& said : axes_.warnings()) all.push_back(said);
   add(clock_.warning());

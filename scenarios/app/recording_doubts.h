@@ -19,8 +19,8 @@ class RecordingDoubts {
  public:
   void add(const slam::SensorFrame& frame);
   [[nodiscard]] const ScansRead& scans() const { return scans_; }
-  /// Sentences for the user. `record` has the times of the frames; `told_RL` is the rotation of the mount.
-  [[nodiscard]] std::vector<std::string> warnings(const MethodRecord& record, const Eigen::Quaterniond& told_RL,
+  /// Sentences for the user. `record` has the times of the frames; `mount_RL` is the rotation of the mount.
+  [[nodiscard]] std::vector<std::string> warnings(const MethodRecord& record, const Eigen::Quaterniond& mount_RL,
                                                   bool with_odometry) const;
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "bim/digest/digest.h"
@@ -80,8 +81,9 @@ class SGraphLocalization final : public PlanLocalization {
   void start_tracking(const LocalizationScan& scan, const std::vector<PlaneObservation>& planes);
   void follow_storey();
   void check_kidnap(const LocalizationScan& scan);
-  void search_anew();
-  [[nodiscard]] bool is_carried_elsewhere(double silence_s, const LocalizationScan& scan);
+  enum class Window { holds, is_refuted };  ///< the tracked poses
+  void search_anew(Window window);
+  [[nodiscard]] bool may_be_carried_elsewhere(double silence_s, const LocalizationScan& scan);
   [[nodiscard]] bool may_be_on_another_storey() const;
   void add_all_storeys();
   [[nodiscard]] bool is_on_floor() const;
@@ -100,8 +102,9 @@ class SGraphLocalization final : public PlanLocalization {
   State state_ = State::searching;
   double mass_ = 0.0;  ///< of the tracked hypothesis when it was announced
   int failed_updates_ = 0;
-  std::optional<Nanoseconds> used_stamp_;   ///< of the last scan of a robot that moves
-  double since_stop_m_ = 1e9;               ///< walked since it stood or was silent for as long as a lift takes
+  std::optional<Nanoseconds> used_stamp_;  ///< of the last scan of a robot that moves
+  /// Walked since it stood or was silent for as long as a lift takes, m.
+  double since_stop_m_ = std::numeric_limits<double>::infinity();
   bool doubts_place_ = false;               ///< since a silence, until a scan fits: the robot may have been carried
   double misfit_ = 0.0;                     ///< of the tracked pose, see KidnapMonitorConfig
   int storey_ = 0;                          ///< of the tracked hypothesis, index into PlanIndex::storeys
@@ -127,8 +130,8 @@ void SGraphLocalization::use_scan(const PlanScan& scan, Output& output) {
   const auto [planes, localization_scan] = observe(scan, stopwatch, output);
   if (!tracker_)
     localize(localization_scan, start_prior(scan), planes, output);  // particles to X_WO [shaheer2023, eq. 4-10]
-  else if (is_carried_elsewhere(scan.silence_s, localization_scan))
-    search_anew();
+  else if (may_be_carried_elsewhere(scan.silence_s, localization_scan))
+    search_anew(Window::holds);
   else
     track(localization_scan, planes, output);  // S-Graph on the plan's walls and rooms [shaheer2023, section 3.4]
   walls_ = match_walls(localization_scan, planes);
@@ -266,16 +269,14 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
   const bool is_one_better = alternatives_.is_one_better(index(), {tracked_pose(scan), agreement_}, {u, scan},
                                                          doubted_yaw_, global_localizer_);
   if (!is_one_better && !misfits) return;
-  search_anew();
+  search_anew(Window::is_refuted);
 }
 
-/// After a silence in which it may have been carried: whether another place looks the same.
-bool SGraphLocalization::is_carried_elsewhere(double silence_s, const LocalizationScan& scan) {
+/// After a silence in which it may have been carried: whether another place, on any storey, looks the same.
+bool SGraphLocalization::may_be_carried_elsewhere(double silence_s, const LocalizationScan& scan) {
   if (silence_s <= config_.monitor.carried_s) return false;
   add_all_storeys();
-  if (!alternatives_.may_stand_elsewhere(index(), tracked_pose(scan), scan, global_localizer_)) return false;
-  record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});  // they were right
-  return true;
+  return alternatives_.may_stand_elsewhere(index(), tracked_pose(scan), scan, global_localizer_);
 }
 
 /// A lift takes its time, or a robot is carried: one that went on walking is on the storey where it was.
@@ -287,8 +288,9 @@ void SGraphLocalization::add_all_storeys() {
     if (has_room(plan, i)) static_cast<void>(storey_of_plan(i));
 }
 
-void SGraphLocalization::search_anew() {
-  tracker_.reset();  // with its window
+void SGraphLocalization::search_anew(Window window) {
+  if (tracker_ && window == Window::holds) record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});
+  tracker_.reset();
   global_localizer_.restart();
   state_ = State::lost;
   if (may_be_on_another_storey()) add_all_storeys();
@@ -303,12 +305,8 @@ void SGraphLocalization::record_tracked_poses(const std::vector<TrackedPose>& po
 
 /// Never a confident pose where nothing measures the robot's way.
 bool SGraphLocalization::start_anew() {
-  if (tracker_) {
-    record_tracked_poses({tracker_->window().begin(), tracker_->window().end()});
-    state_ = State::lost;
-  }
-  if (state_ == State::lost) {
-    search_anew();
+  if (tracker_ || state_ == State::lost) {
+    search_anew(Window::holds);
   } else {
     global_localizer_.restart();
     state_ = State::searching;

@@ -31,9 +31,9 @@ struct Walk {
   bool odometry = true, imu = false;
 };
 
-/// Twenty seconds at 10 Hz of a robot whose LiDAR is turned by `q` against the mount that is told, and what is said.
+/// Twenty seconds at 10 Hz of a robot whose LiDAR is turned by `q` against the mount that is given, and what is said.
 std::optional<std::string> said_of(const Walk& walk, const Eigen::Quaterniond& q,
-                                   const Eigen::Quaterniond& told_RL = Eigen::Quaterniond::Identity()) {
+                                   const Eigen::Quaterniond& mount_RL = Eigen::Quaterniond::Identity()) {
   constexpr double dt = 0.1;
   MountCheck check;
   std::vector<slam::StampedPose> by_scans;
@@ -53,7 +53,7 @@ std::optional<std::string> said_of(const Walk& walk, const Eigen::Quaterniond& q
     check.add(frame);
     by_scans.push_back({frame.scan.stamp, X_MR});
   }
-  return check.warning(by_scans, told_RL);
+  return check.warning(by_scans, mount_RL);
 }
 
 TEST(MountCheck, SaysNothingOfAMountThatFits) {
@@ -80,18 +80,18 @@ TEST(MountCheck, SaysHowTheLidarIsTurned) {
   EXPECT_NE(pitch->find("roll 0, pitch -20, yaw 0 degrees"), std::string::npos) << *pitch;
 }
 
-TEST(MountCheck, GivesTheMountThatWouldFitWhateverWasTold) {
+TEST(MountCheck, GivesTheMountThatWouldFitWhateverWasGiven) {
   const Stream random(1, "bim.generate");
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Quaterniond told_RL = exp_so3(normals(random, i, 0));
+    const Eigen::Quaterniond mount_RL = exp_so3(normals(random, i, 0));
     const double angle = 10.0 + 160.0 * random.uniform(static_cast<std::uint64_t>(i), 1);
     const Eigen::Quaterniond q = turn_by(angle * degree, normals(random, i, 2));
-    const std::optional<std::string> said = said_of({}, q, told_RL);
+    const std::optional<std::string> said = said_of({}, q, mount_RL);
     ASSERT_TRUE(said) << i;
     double x = 0.0, y = 0.0, z = 0.0, w = 0.0;
     const std::size_t at = said->find('[');
     ASSERT_EQ(std::sscanf(said->c_str() + at, "[%lf, %lf, %lf, %lf]", &x, &y, &z, &w), 4) << *said;
-    EXPECT_LT((q * told_RL).angularDistance(Eigen::Quaterniond(w, x, y, z).normalized()), 0.3 * degree) << *said;
+    EXPECT_LT((q * mount_RL).angularDistance(Eigen::Quaterniond(w, x, y, z).normalized()), 0.3 * degree) << *said;
   }
 }
 

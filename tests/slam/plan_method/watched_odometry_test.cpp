@@ -104,9 +104,16 @@ TEST(WatchedOdometry, ARecordASecondIsTooFew) {
 
 TEST(WatchedOdometry, WithoutEitherTheWayIsNotKnown) { EXPECT_GT(follow(silent(6.0, 100.0), 6.0).unknown, 20); }
 
+synthetic::Recording standing_robot(double duration_s) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = duration_s;
+  walk.speed_mps = 1e-6;
+  return synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+}
+
 // Along a bare corridor the view stays as it is, and odometry drifts by 3 %.
 TEST(WatchedOdometry, DriftAlongACorridorIsNoContradiction) {
-  synthetic::House corridor = synthetic::one_room(40.0, 2.0);
+  const synthetic::House corridor = synthetic::one_room(40.0, 2.0);
   synthetic::WalkConfig walk;
   walk.vibration = 0.0;
   walk.odometry_scale = 1.03;
@@ -124,11 +131,7 @@ TEST(WatchedOdometry, DriftAlongACorridorIsNoContradiction) {
 // Wheels spin for 4 s under a robot that stands, and then it stands on: nothing but the view tells.
 TEST(WatchedOdometry, ScansTakeOverWhereWheelsSpin) {
   for (const double speed_mps : {0.3, 0.7}) {
-    synthetic::WalkConfig walk;
-    walk.duration_s = 8.0;
-    walk.speed_mps = 1e-6;
-    const synthetic::Recording recording =
-        synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+    const synthetic::Recording recording = standing_robot(8.0);
     WatchedOdometry watched(recording.calibration);
     MotionBuffer motion;
     for (const Odometry& record : recording.odometry) {
@@ -145,11 +148,7 @@ TEST(WatchedOdometry, ScansTakeOverWhereWheelsSpin) {
 
 // A robot that stands is no odometry that stands wrongly.
 TEST(WatchedOdometry, ARobotMayStand) {
-  synthetic::WalkConfig walk;
-  walk.duration_s = 6.0;
-  walk.speed_mps = 1e-6;
-  const synthetic::Recording recording =
-      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+  const synthetic::Recording recording = standing_robot(6.0);
   WatchedOdometry watched(recording.calibration);
   MotionBuffer motion;
   for (const Odometry& record : recording.odometry) {
