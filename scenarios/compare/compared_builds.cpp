@@ -24,8 +24,8 @@ namespace {
 
 std::string program_digest(const std::string& path) { return hex64(Digest().add(read_text_file(path)).value()); }
 
-/// OUT with the digests of its programs. Two builds of one version have other bytes only: a sweep alone would keep the
-/// runs of the one before. What is made here goes with this object where no sweep was begun.
+/// OUT with the digests of its programs: a folder of another program is refused, not made anew, and sweeps of older
+/// programs keep the runs of another build. What is made here goes with this object where no sweep was begun.
 class BuildsFolder {
  public:
   explicit BuildsFolder(const ComparedBuilds& builds) : out_(builds.out), file_(builds.out + "/programs.json") {
