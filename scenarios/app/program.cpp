@@ -91,6 +91,7 @@ std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table)
           add_replay(program, table),
           add_diff(program),
           add_compare(program),
+          add_shrink(program),
           add_methods(program, table),
           add_scenarios(program),
           add_bench(program),

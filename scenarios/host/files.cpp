@@ -175,6 +175,16 @@ constexpr std::array<FileRow, 7> sweep_files = {{
     {"pages", "with --page: a run directory for each run asked for", false},
 }};
 
+constexpr std::array<FileRow, 5> shrink_files = {{
+    {"scenario.yaml", "the smallest scenario that fails the same way", false},
+    {"building.*", "the building that it names", false},
+    {"run", "the run directory of that scenario; not after an interruption", false},
+    {"shrink.json",
+     "`failure`: what fails; `before` and `after`: sizes of the run; `needs` and `does_not_need`: its ingredients; "
+     "`steps`: what was tried, in order, and whether it was kept; `end`: `smallest`, `max_runs` or `interrupted`"},
+    {manifest_name, "a digest of every file as it was written", false},
+}};
+
 /// Which names a directory may hold.
 struct DirectoryNames {
   std::string_view what;
@@ -194,15 +204,15 @@ struct DirectoryNames {
 };
 
 DirectoryNames names_of(DirectoryKind kind) {
-  static constexpr std::array<std::string_view, 4> whats = {"run", "recording", "estimate", "sweep"};
+  static constexpr std::array<std::string_view, 5> whats = {"run", "recording", "estimate", "sweep", "shrink"};
   return {whats[static_cast<std::size_t>(kind)], files_of(kind)};
 }
 
 }  // namespace
 
 std::span<const FileRow> files_of(DirectoryKind kind) {
-  static constexpr std::array<std::span<const FileRow>, 4> rows = {run_files, recording_files, estimate_files,
-                                                                   sweep_files};
+  static constexpr std::array<std::span<const FileRow>, 5> rows = {run_files, recording_files, estimate_files,
+                                                                   sweep_files, shrink_files};
   return rows[static_cast<std::size_t>(kind)];
 }
 

@@ -30,7 +30,7 @@ bool remove_abandoned(const std::string& directory) noexcept;
 [[nodiscard]] std::vector<std::string> unfinished_in(const std::string& folder);
 
 /// What a directory holds: one kind never replaces another.
-enum class DirectoryKind { run, recording, estimate, sweep };
+enum class DirectoryKind { run, recording, estimate, sweep, shrink };
 
 /// A file of a directory.
 struct FileRow {

@@ -115,6 +115,12 @@ class Running {
 
 }  // namespace
 
+std::string without_place(const std::string& last_line, const std::string& folder) {
+  if (!last_line.starts_with(folder)) return last_line;
+  const std::size_t end = last_line.find(": ");
+  return end == std::string::npos ? last_line : last_line.substr(end + 2);
+}
+
 void run_children(std::size_t count, int jobs, const std::function<std::vector<std::string>(std::size_t)>& arguments,
                   const std::function<void(std::size_t, const ChildEnd&)>& ended, const std::string& program) {
   Running running;

@@ -13,6 +13,9 @@ struct ChildEnd {
   std::string last_line;
 };
 
+/// The last line of a child without the place in a file of `folder` at its begin, which the user did not write.
+[[nodiscard]] std::string without_place(const std::string& last_line, const std::string& folder);
+
 /// What run_children() starts where no other program is named.
 inline constexpr const char* this_program = "/proc/self/exe";
 

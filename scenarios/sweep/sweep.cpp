@@ -32,13 +32,6 @@ void check_no_other_sweep(const Sweep& sweep, const std::string& out) {
   if (any) throw InputError({out, 0, 0}, "holds the results of another sweep; name another --out");
 }
 
-/// A child's error message without the place in a file that the sweep made.
-std::string without_place(const std::string& last_line, const std::string& folder) {
-  if (!last_line.starts_with(folder)) return last_line;
-  const std::size_t end = last_line.find(": ");
-  return end == std::string::npos ? last_line : last_line.substr(end + 2);
-}
-
 /// Whether the result there says that the run was refused: what was in the way may be gone, as with a newer program.
 bool is_refused(const std::string& path) {
   const Tree result = read_json(read_text_file(path), path);

@@ -8,6 +8,7 @@
 
 #include "bim/digest/digest.h"
 #include "bim/load/load.h"
+#include "scenarios/spec/dotted_key.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/process_tree.h"
 #include "scenarios/spec/resolve.h"
@@ -118,19 +119,6 @@ class Template {
     if (std::count(key.begin(), key.end(), '.') >= deepest_key)
       throw InputError(mark, "a key of more than " + std::to_string(deepest_key) + " parts; no scenario has one");
     set_at(tree, key, *value.find("value"));
-  }
-
-  static void set_at(Tree& tree, const std::string& path, const Tree& value) {
-    const std::size_t dot = path.find('.');
-    const std::string key = path.substr(0, dot);
-    if (dot == std::string::npos) {
-      tree.set(key, value);
-      return;
-    }
-    const Tree* old = tree.find(key);
-    Tree child = old != nullptr && old->is_map() ? *old : Tree::map();
-    set_at(child, path.substr(dot + 1), value);
-    tree.set(key, std::move(child));
   }
 
   std::string path_;

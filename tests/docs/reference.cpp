@@ -139,7 +139,7 @@ in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and m
   heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`. Its `loops`
   have `from_ns`, `to_ns`, and `pose`, that of the robot at `to_ns` in its frame at `from_ns`. All in m.
 )md" + "\n## A sweep: `plumbline sweep`\n\n" +
-         file_table(Kind::sweep);
+         file_table(Kind::sweep) + "\n## A smallest run: `plumbline shrink`\n\n" + file_table(Kind::shrink);
 }
 
 std::string recording_page() {
@@ -167,7 +167,7 @@ test compares them. Change the code, not the pages.
 - [methods.md](methods.md): methods and their configs
 - [metrics.md](metrics.md): metrics, verdicts, causes of failure
 - [warnings.md](warnings.md): warnings of readers
-- [files.md](files.md): directories of runs, recordings, estimates and sweeps
+- [files.md](files.md): directories of runs, recordings, estimates, sweeps and smallest runs
 )md";
 }
 
