@@ -27,6 +27,7 @@ struct Command {
 [[nodiscard]] Command add_diff(CommandLine& program);
 [[nodiscard]] Command add_compare(CommandLine& program);
 [[nodiscard]] Command add_shrink(CommandLine& program);
+[[nodiscard]] Command add_hunt(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_methods(CommandLine& program, slam::MethodTable table);
 [[nodiscard]] Command add_scenarios(CommandLine& program);
 [[nodiscard]] Command add_simulate(CommandLine& program, slam::MethodTable table);

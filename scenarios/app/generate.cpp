@@ -24,8 +24,7 @@
 #include "scenarios/app/commands.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/terminal.h"
-#include "scenarios/spec/route_plan.h"
-#include "scenarios/spec/scenario.h"
+#include "scenarios/spec/generated_walk.h"
 
 namespace plumbline::scenarios {
 
@@ -96,21 +95,13 @@ void refuse_to_replace(const std::string& path, bool force) {
     throw InputError({path, 0, 0}, "its folder is not there; make it, or name another");
 }
 
-/// A walk through all rooms of the start's storey and back, with time to spare.
+/// The scenario's text, whose building stands in a file beside it or elsewhere.
 std::string scenario_for(const bim::GeneratedPlan& generated, const std::string& plan_text,
                          const GenerateOptions& options) {
-  constexpr double slower_than_planned = 1.5;
-  constexpr double at_rest_s = 30.0;
-  Scenario scenario;
-  scenario.name = generated.plan.name;
-  scenario.building = fs::path(options.out).lexically_proximate(fs::path(options.scenario).parent_path()).string();
-  scenario.start.room = generated.start;
-  scenario.route.rooms = generated.rooms;
+  const std::string building =
+      fs::path(options.out).lexically_proximate(fs::path(options.scenario).parent_path()).string();
+  Scenario scenario = generated_walk(generated, plan_text, building);
   scenario.methods = {"truth", "odometry", "vgicp", "s_graphs_plus", "s_graph_localization"};
-  const Mark mark{options.scenario, 0, 0};
-  const RoutePlan route =
-      plan_route(bim::read_plan_text(plan_text, options.out), scenario.start, scenario.route, {mark, mark, {}});
-  scenario.duration_s = std::ceil(slower_than_planned * route.length_m / scenario.speed_mps + at_rest_s);
   return write_scenario(scenario);
 }
 

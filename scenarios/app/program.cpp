@@ -92,6 +92,7 @@ std::vector<Command> add_commands(CommandLine& program, slam::MethodTable table)
           add_diff(program),
           add_compare(program),
           add_shrink(program),
+          add_hunt(program, table),
           add_methods(program, table),
           add_scenarios(program),
           add_bench(program),

@@ -185,6 +185,16 @@ constexpr std::array<FileRow, 5> shrink_files = {{
     {manifest_name, "a digest of every file as it was written", false},
 }};
 
+constexpr std::array<FileRow, 4> hunt_files = {{
+    {"hunt.csv", "a row for each run and method: what was drawn, verdict, whose fault and why, badness"},
+    {"hunt.json",
+     "`findings`: kinds of failure that are a method's fault, the severest first; `not_the_methods_fault`: counts of "
+     "others by reason"},
+    {"failures", "for each finding a folder NN with scenario.yaml and building; with `--shrink` also run and small",
+     false},
+    {manifest_name, "a digest of every file as it was written", false},
+}};
+
 /// Which names a directory may hold.
 struct DirectoryNames {
   std::string_view what;
@@ -204,15 +214,15 @@ struct DirectoryNames {
 };
 
 DirectoryNames names_of(DirectoryKind kind) {
-  static constexpr std::array<std::string_view, 5> whats = {"run", "recording", "estimate", "sweep", "shrink"};
+  static constexpr std::array<std::string_view, 6> whats = {"run", "recording", "estimate", "sweep", "shrink", "hunt"};
   return {whats[static_cast<std::size_t>(kind)], files_of(kind)};
 }
 
 }  // namespace
 
 std::span<const FileRow> files_of(DirectoryKind kind) {
-  static constexpr std::array<std::span<const FileRow>, 5> rows = {run_files, recording_files, estimate_files,
-                                                                   sweep_files, shrink_files};
+  static constexpr std::array<std::span<const FileRow>, 6> rows = {run_files,   recording_files, estimate_files,
+                                                                   sweep_files, shrink_files,    hunt_files};
   return rows[static_cast<std::size_t>(kind)];
 }
 

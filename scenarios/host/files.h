@@ -30,7 +30,7 @@ bool remove_abandoned(const std::string& directory) noexcept;
 [[nodiscard]] std::vector<std::string> unfinished_in(const std::string& folder);
 
 /// What a directory holds: one kind never replaces another.
-enum class DirectoryKind { run, recording, estimate, sweep, shrink };
+enum class DirectoryKind { run, recording, estimate, sweep, shrink, hunt };
 
 /// A file of a directory.
 struct FileRow {

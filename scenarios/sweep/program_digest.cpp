@@ -58,13 +58,14 @@ bool is_sweep(const fs::path& folder) {
   return has_results && !error;
 }
 
-/// A sweep, scenario or plan has its own place in a run's input; more seeds shall not make all runs again.
+/// A sweep, hunt, scenario or plan has its own place in a run's input; more seeds shall not make all runs again.
 bool is_ours(const fs::path& file) {
   if (file.extension() != ".yaml" && file.extension() != ".yml") return false;
   std::ifstream stream(file);
   std::string line;
   while (std::getline(stream, line) && (line.empty() || line.front() == '#')) continue;
-  return line.starts_with("sweep: 1") || line.starts_with("scenario: 1") || line.starts_with("plan: 1");
+  return line.starts_with("sweep: 1") || line.starts_with("scenario: 1") || line.starts_with("plan: 1") ||
+         line.starts_with("hunt: 1");
 }
 
 /// What programs write, and nobody imports.

@@ -7,12 +7,10 @@
 #include <set>
 
 #include "bim/digest/digest.h"
-#include "bim/load/load.h"
-#include "scenarios/spec/dotted_key.h"
-#include "scenarios/spec/method_names.h"
 #include "scenarios/spec/process_tree.h"
 #include "scenarios/spec/resolve.h"
 #include "scenarios/sweep/program_digest.h"
+#include "scenarios/sweep/scenario_template.h"
 #include "scenarios/sweep/shared_simulation.h"
 
 namespace plumbline::scenarios {
@@ -23,109 +21,6 @@ namespace {
 
 constexpr std::size_t most_runs = 1000000;
 constexpr std::size_t most_text_bytes = std::size_t{256} << 20U;
-constexpr int deepest_key = 16;
-
-/// A scenario's text with some of its values replaced.
-class Template {
- public:
-  Template(const std::string& path, const Mark& mark) : path_(path) {
-    if (!fs::exists(path)) throw InputError(mark, "the scenario '" + path + "' does not exist");
-    const std::string text = read_text_file(path);
-    const fs::path folder = fs::absolute(path).parent_path();  // a bare name has no parent path
-    tree_ = with_process_folders(read_yaml(text, path), folder.lexically_normal().string());
-    if (!tree_.is_map() || tree_.find("scenario") == nullptr)
-      throw InputError(mark, "'" + path + "' is no scenario; its first key must be 'scenario: 1'");
-    (void)read_scenario(text, path);
-    const Tree* building = tree_.find("building");
-    if (building == nullptr) throw InputError(tree_.mark, "a scenario needs a building");
-    building_ = (folder / building->as_string()).lexically_normal().string();
-    building_bytes_ = fs::exists(building_) ? bim::read_building_file(building_) : "";
-  }
-
-  [[nodiscard]] std::string name() const { return fs::path(path_).stem().string(); }
-  [[nodiscard]] const std::string& building_bytes() const { return building_bytes_; }
-
-  /// The scenario with what a sweep asks for; its form is checked.
-  [[nodiscard]] Tree with(const SweepVariant& variant, const Start* start, const SweepFile& sweep, const Mark& mark,
-                          slam::MethodTable table) const {
-    const std::vector<std::string>& methods = sweep.methods;
-    Tree tree = tree_;
-    for (const std::string& text : variant.set) {
-      set(tree, text, mark);
-      const std::string key = text.substr(0, text.find_first_of(".="));
-      if ((key == "start" && start != nullptr) || (key == "methods" && !methods.empty()) ||
-          (key == "sensors" && !sweep.sensors.empty()))
-        throw InputError(mark, "the sweep sets '" + key + (key == "start" ? "' by its starts" : "' itself") +
-                                   "; set it in one place");
-    }
-    if (start != nullptr) tree.set("start", to_tree(*start));
-    if (!methods.empty()) {
-      Tree list = Tree::list();
-      for (const std::string& method : methods) list.push(method);
-      tree.set("methods", list).set("gates", Tree::list());
-    }
-    if (!sweep.sensors.empty()) tree.set("sensors", to_tree(sweep.sensors));
-    name_labels(check(tree, variant, mark), table, tree);
-    return tree;
-  }
-
-  /// The scenario with the processes of the sweep beside its own.
-  void add(const Tree& processes) {
-    if (processes.as_list().empty()) return;
-    const Tree* own = tree_.find("processes");
-    Tree all = own != nullptr && own->is_list() ? *own : Tree::list();
-    for (const Tree& process : processes.as_list()) all.push(process);
-    tree_.set("processes", std::move(all));
-  }
-
-  /// The table with the scenario's processes; `mark` is where the sweep names the scenario.
-  [[nodiscard]] ProcessTable methods(slam::MethodTable table, const Mark& mark) const {
-    const std::vector<ProcessSpec> processes = check(tree_, {}, mark).processes;
-    return {table, processes, std::vector<Mark>(processes.size(), mark)};
-  }
-
-  [[nodiscard]] std::string text(Tree tree) const { return write_yaml(tree.set("building", building_)); }
-
- private:
-  /// A place in the text made here would be none that the user wrote.
-  [[nodiscard]] Scenario check(const Tree& tree, const SweepVariant& variant, const Mark& mark) const {
-    try {
-      return read_scenario(write_yaml(tree), "made").scenario;
-    } catch (const InputError& error) {
-      const std::string what = error.what();
-      const std::size_t start = what.find(": ");
-      throw InputError(mark, "'" + path_ + "'" + (variant.name.empty() ? "" : " as '" + variant.name + "'") +
-                                 (start == std::string::npos ? ": " + what : what.substr(start)));
-    }
-  }
-
-  /// Methods that are named get their labels here, so that the rows of a run that fails have them, too.
-  static void name_labels(const Scenario& scenario, slam::MethodTable table, Tree& tree) {
-    if (scenario.methods.empty() || scenario.sensors.empty()) return;
-    Tree labels = Tree::list();
-    for (const std::string& method : scenario.methods)
-      for (const std::string& label : labels_of(method, scenario.sensors, table)) labels.push(label);
-    tree.set("methods", labels).set("sensors", Tree::list());
-  }
-
-  static void set(Tree& tree, const std::string& text, const Mark& mark) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-      throw InputError(mark, "'" + text + "' must be key.key=value");
-    const Tree value = read_yaml("value: " + text.substr(equals + 1), mark.file);
-    const std::string key = text.substr(0, equals);
-    if (key == "seed") throw InputError(mark, "a sweep gives every run its seed; set seeds and first_seed");
-    if (key == "building") throw InputError(mark, "a sweep's runs are in their scenario's building; add a scenario");
-    if (std::count(key.begin(), key.end(), '.') >= deepest_key)
-      throw InputError(mark, "a key of more than " + std::to_string(deepest_key) + " parts; no scenario has one");
-    set_at(tree, key, *value.find("value"));
-  }
-
-  std::string path_;
-  std::string building_;
-  std::string building_bytes_;
-  Tree tree_;
-};
 
 Mark mark_of(const Tree& tree, std::string_view key, std::size_t i) {
   const Tree* list = tree.find(key);
@@ -199,7 +94,7 @@ Sweep read_sweep(const std::string& path, int seeds, slam::MethodTable table) {
   const std::vector<SweepVariant> variants = file.variants.empty() ? std::vector<SweepVariant>(1) : file.variants;
   for (std::size_t i = 0; i < file.scenarios.size(); ++i) {
     const Mark at = mark_of(tree, "scenarios", i);
-    Template scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), at);
+    ScenarioTemplate scenario((fs::path(path).parent_path() / file.scenarios[i]).string(), at);
     scenario.add(processes_of(tree));
     const ProcessTable methods = scenario.methods(table, at);
     check_names(file, tree, methods.table());

@@ -161,13 +161,13 @@ std::string csv(const std::string& cell) {
   return quoted + "\"";
 }
 
-std::string csv_line(const Line& line) {
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& words) {
   std::string text;
-  for (std::size_t i = 0; i < line.size(); ++i) text += (i == 0 ? "" : ",") + csv(line[i]);
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : ",") + csv(words[i]);
   return text + "\n";
 }
-
-}  // namespace
 
 std::pair<double, double> wilson95(int k, int n) {
   if (n <= 0) return {0.0, 1.0};

@@ -71,6 +71,8 @@ struct SweepCell {
 /// In the order in which they come up first.
 [[nodiscard]] std::vector<SweepCell> cells_of(std::vector<SweepRow> rows);
 
+/// A line of a .csv file. An apostrophe stands before a word that a spreadsheet would take for a formula.
+[[nodiscard]] std::string csv_line(const std::vector<std::string>& words);
 [[nodiscard]] std::string runs_csv(const std::vector<SweepRow>& rows);
 [[nodiscard]] std::string table_text(const std::vector<SweepCell>& cells);
 [[nodiscard]] std::string table_csv(const std::vector<SweepCell>& cells);

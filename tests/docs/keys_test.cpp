@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bim/config/schema.h"
+#include "scenarios/hunt/hunt_schema.h"
 #include "scenarios/spec/scenario_schema.h"
 #include "slam/methods.h"
 
@@ -30,6 +31,8 @@ TEST(Keys, EveryKeyOfEveryMethodHasASentenceAUnitAndARange) {
 TEST(Keys, EveryKeyOfScenariosHasASentenceAUnitAndARange) {
   expect_described(scenarios::scenario_schema(), "scenario");
 }
+
+TEST(Keys, EveryKeyOfHuntsHasASentenceAUnitAndARange) { expect_described(scenarios::hunt_schema(), "hunt"); }
 
 TEST(Keys, EveryMethodHasAShortListOfBasicKeys) {
   for (const slam::MethodRow& row : slam::methods()) {

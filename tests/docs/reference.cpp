@@ -9,6 +9,7 @@
 #include "bim/model/warning.h"
 #include "scenarios/app/program.h"
 #include "scenarios/host/files.h"
+#include "scenarios/hunt/hunt_schema.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/metrics/result_words.h"
 #include "scenarios/spec/method_names.h"
@@ -139,7 +140,8 @@ in the format of TUM: `t x y z qx qy qz qw`, in seconds of the run's clock and m
   heights `z0` and `z1`; `rooms`: `kind`, `center`, `polygon`, `planes` (ids); `floors`: `center`, `n`, `d`. Its `loops`
   have `from_ns`, `to_ns`, and `pose`, that of the robot at `to_ns` in its frame at `from_ns`. All in m.
 )md" + "\n## A sweep: `plumbline sweep`\n\n" +
-         file_table(Kind::sweep) + "\n## A smallest run: `plumbline shrink`\n\n" + file_table(Kind::shrink);
+         file_table(Kind::sweep) + "\n## A smallest run: `plumbline shrink`\n\n" + file_table(Kind::shrink) +
+         "\n## A search: `plumbline hunt`\n\n" + file_table(Kind::hunt);
 }
 
 std::string recording_page() {
@@ -163,11 +165,12 @@ test compares them. Change the code, not the pages.
 - [plan.md](plan.md): plan files, every key
 - [scenario.md](scenario.md): scenario files, every key
 - [sweep.md](sweep.md): sweep files, every key
+- [hunt.md](hunt.md): hunt files, every key
 - [recording.md](recording.md): description files of recordings, every key
 - [methods.md](methods.md): methods and their configs
 - [metrics.md](metrics.md): metrics, verdicts, causes of failure
 - [warnings.md](warnings.md): warnings of readers
-- [files.md](files.md): directories of runs, recordings, estimates, sweeps and smallest runs
+- [files.md](files.md): directories of runs, recordings, estimates, sweeps, smallest runs and hunts
 )md";
 }
 
@@ -177,6 +180,7 @@ std::vector<Page> reference_pages() {
   return {{"README.md", index_page()},
           {"commands.md", commands_page()},
           {"files.md", files_page()},
+          {"hunt.md", scenarios::hunt_page()},
           {"methods.md", methods_page()},
           {"metrics.md", metrics_page()},
           {"plan.md", bim::plan_page()},

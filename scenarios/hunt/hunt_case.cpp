@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/hunt/hunt_case.h"
+
+#include <filesystem>
+
+#include "bim/formats/plan_yaml/plan_write.h"
+#include "bim/generators/generators.h"
+#include "scenarios/host/files.h"
+#include "scenarios/hunt/hunt.h"
+#include "scenarios/spec/generated_walk.h"
+#include "scenarios/spec/resolve.h"
+
+namespace plumbline::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a hunt asks of every run, as a sweep would.
+SweepFile asked_of_all(const HuntFile& file) {
+  SweepFile sweep;
+  sweep.methods = file.methods;
+  return sweep;
+}
+
+/// Beside scenario.yaml, whatever the user calls it. The ending says what it is.
+std::string name_in_case(const std::string& building) {
+  constexpr std::string_view plan = ".plan.yaml";
+  return "building" + (building.ends_with(plan) ? std::string(plan) : fs::path(building).extension().string());
+}
+
+}  // namespace
+
+HuntCases::HuntCases(const Hunt& hunt, const std::string& work, slam::MethodTable table)
+    : hunt_(hunt), work_(work), table_(table) {
+  for (const HuntBase& base : hunt.bases) {
+    if (!base.family) {
+      const auto& scenario = templates_.try_emplace(base.scenario, base.scenario, base.mark).first->second;
+      if (scenario.building_bytes().empty())
+        throw InputError(base.mark, "the building of '" + base.scenario + "' does not exist");
+    }
+    for (const double u : {0.0, 1.0 - 1e-9}) check(base, u);
+  }
+}
+
+/// A key that no scenario has, a value that it cannot have or an unknown method is a mistake, wherever it is drawn.
+void HuntCases::check(const HuntBase& base, double u) const {
+  HuntRun run;
+  run.point = Point(base.dimensions(hunt_.file), u);
+  const std::size_t first = base.family ? base.family->options.size() : 0;
+  if (base.family) {
+    Scenario scenario;
+    scenario.building = "building.plan.yaml";
+    write_file(work_ + "/" + base.name + ".yaml", write_scenario(scenario));
+  }
+  const std::string path = base.family ? work_ + "/" + base.name + ".yaml" : base.scenario;
+  const RunCase made = varied(ScenarioTemplate(path, base.mark), base, first, run);
+  const std::vector<std::string> methods = methods_of_case(made);
+  const ProcessTable table = ScenarioTemplate(path, base.mark).methods(table_, base.mark);
+  check_methods(methods, std::vector<Mark>(methods.size(), base.mark), table.table());
+}
+
+void HuntCases::make(HuntRun& run) const {
+  const HuntBase& base = hunt_.bases[run.base];
+  try {
+    run.run = base.family ? generated(base, run) : varied(templates_.at(base.scenario), base, 0, run);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    const std::size_t place = what.find(": ");
+    run.why = what.starts_with(work_) && place != std::string::npos ? what.substr(place + 2) : what;
+  }
+}
+
+RunCase HuntCases::generated(const HuntBase& base, HuntRun& run) const {
+  Tree options = Tree::map();
+  options.mark = base.mark;
+  for (std::size_t k = 0; k < base.family->options.size(); ++k) {
+    const HuntRange& range = base.family->options[k];
+    const std::string value = value_at(range, run.point[k]);
+    options.set(range.key, value);
+    run.values.emplace_back(base.name + " " + range.key, value);
+  }
+  if (options.find("seed") == nullptr) options.set("seed", std::to_string(run.seed));
+  const bim::GeneratedPlan plan = bim::generate(base.family->family, options);
+  const std::string text = bim::write_plan(plan.plan), name = base.name + ".plan.yaml";
+  write_file(work_ + "/" + name, text);
+  write_file(work_ + "/" + base.name + ".yaml", write_scenario(generated_walk(plan, text, name)));
+  return varied(ScenarioTemplate(work_ + "/" + base.name + ".yaml", base.mark), base, base.family->options.size(), run);
+}
+
+RunCase HuntCases::varied(const ScenarioTemplate& scenario, const HuntBase& base, std::size_t first,
+                          HuntRun& run) const {
+  SweepVariant variant;
+  for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k) {
+    const HuntRange& range = hunt_.file.vary[k];
+    const std::string value = value_at(range, run.point[first + k]);
+    variant.set.push_back(range.key + "=" + value);
+    run.values.emplace_back(range.key, value);
+  }
+  Tree tree = scenario.with(variant, nullptr, asked_of_all(hunt_.file), base.mark, table_);
+  tree.set("seed", std::to_string(run.seed));
+  if (!hunt_.file.gates.empty()) {
+    Tree gates = Tree::list();
+    for (const GateSpec& gate : hunt_.file.gates) gates.push(to_tree(gate));
+    tree.set("gates", std::move(gates));
+  }
+  const std::string name = name_in_case(scenario.building());
+  tree.set("building", name);
+  return {tree, name, scenario.building_bytes()};
+}
+
+std::vector<std::string> methods_of_case(const RunCase& run) {
+  return read_scenario(write_yaml(run.scenario), "scenario.yaml").scenario.methods;
+}
+
+RunCase with_method(RunCase run, const std::string& method) {
+  Tree methods = Tree::list(), gates = Tree::list();
+  methods.push(method);
+  const Tree* all = run.scenario.find("gates");
+  if (all != nullptr && all->is_list())
+    for (const Tree& gate : all->as_list())
+      if (gate.find("method")->as_string() == method) gates.push(gate);
+  run.scenario.set("methods", methods).set("gates", gates);
+  return run;
+}
+
+}  // namespace plumbline::scenarios
