@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/shrink/shrink.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@
 #include "scenarios/run/run_files.h"
 #include "scenarios/shrink/shrink_text.h"
 #include "scenarios/shrink/trial.h"
+#include "scenarios/spec/scenario.h"
 
 namespace plumbline::scenarios {
 
@@ -52,6 +54,15 @@ Shrunk search(const ShrinkArguments& options, const std::string& work) {
   return shrink(read_case(options.run + "/scenario.yaml"), results, failure, shrinking);
 }
 
+/// An estimate that was scored beside the methods of the run cannot be made again.
+void check_made_by_run(const FailureSignature& failure, const RunCase& run) {
+  const std::vector<std::string> methods = read_scenario(write_yaml(run.scenario), "scenario.yaml").scenario.methods;
+  if (std::find(methods.begin(), methods.end(), failure.method) == methods.end())
+    throw InputError({"--method", 0, 0}, "'" + failure.method +
+                                             "' is an outside estimate, which cannot be run again; name a method of "
+                                             "the scenario");
+}
+
 /// The smallest run with all its files, which must fail the same way.
 void run_smallest(const std::string& staging, const Shrunk& shrunk) {
   constexpr int gate_failed = 1;
@@ -63,7 +74,8 @@ void run_smallest(const std::string& staging, const Shrunk& shrunk) {
 int shrink_run(const ShrinkArguments& options) {
   check_run_directory(options.run);
   refuse_altered(options.run, altered_files(options.run, {{}, false}), options.unchecked);
-  (void)chosen_failure(results_in(options.run), options.run, options.method, options.gate);
+  check_made_by_run(chosen_failure(results_in(options.run), options.run, options.method, options.gate),
+                    read_case(options.run + "/scenario.yaml"));
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::shrink, options.force);
   const std::string work = directory.staging() + "/work";

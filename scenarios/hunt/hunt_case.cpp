@@ -39,14 +39,28 @@ HuntCases::HuntCases(const Hunt& hunt, const std::string& work, slam::MethodTabl
       if (scenario.building_bytes().empty())
         throw InputError(base.mark, "the building of '" + base.scenario + "' does not exist");
     }
-    for (const double u : {0.0, 1.0 - 1e-9}) check(base, u);
+    check_ends(base);
+  }
+}
+
+/// All ranges at their least and at their greatest, and every value that is named.
+void HuntCases::check_ends(const HuntBase& base) const {
+  const std::size_t dimensions = base.dimensions(hunt_.file), first = dimensions - hunt_.file.vary.size();
+  for (const double u : {0.0, 1.0 - 1e-9}) check(base, Point(dimensions, u));
+  for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k) {
+    const std::size_t count = hunt_.file.vary[k].values.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      Point point(dimensions, 0.0);
+      point[first + k] = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+      check(base, std::move(point));
+    }
   }
 }
 
 /// A key that no scenario has, a value that it cannot have or an unknown method is a mistake, wherever it is drawn.
-void HuntCases::check(const HuntBase& base, double u) const {
+void HuntCases::check(const HuntBase& base, Point point) const {
   HuntRun run;
-  run.point = Point(base.dimensions(hunt_.file), u);
+  run.point = std::move(point);
   const std::size_t first = base.family ? base.family->options.size() : 0;
   if (base.family) {
     Scenario scenario;

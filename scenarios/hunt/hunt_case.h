@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/hunt/hunt_file.h"
+#include "scenarios/hunt/sampling.h"
 #include "scenarios/shrink/run_case.h"
 #include "scenarios/sweep/scenario_template.h"
 #include "slam/methods.h"
@@ -28,7 +29,8 @@ class HuntCases {
   [[nodiscard]] RunCase generated(const HuntBase& base, HuntRun& run) const;
   [[nodiscard]] RunCase varied(const ScenarioTemplate& scenario, const HuntBase& base, std::size_t first,
                                HuntRun& run) const;
-  void check(const HuntBase& base, double u) const;
+  void check_ends(const HuntBase& base) const;
+  void check(const HuntBase& base, Point point) const;
 
   const Hunt& hunt_;
   std::string work_;

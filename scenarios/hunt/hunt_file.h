@@ -62,7 +62,9 @@ struct HuntFile {
     v("generate", generate,
       Field{.doc = "families of buildings to draw from, each with a walk through all rooms of the start's storey"});
     v("vary", vary, Field{.doc = "keys of the scenarios that are drawn anew for every run"});
-    v("methods", methods, Field{.doc = "names of the methods of every run; each scenario's own when none is named"});
+    v("methods", methods,
+      Field{.doc = "names of the methods of every run; each scenario's own when none is named; a process of yours is "
+                   "declared in the scenario"});
     v("gates", gates, Field{.doc = "bounds that every run is to keep, in place of those of the scenarios"});
     v("runs", runs, plain_field("number of runs", {.min = 1, .max = 100000}));
     v("refine", refine, share_field("share of the runs that are drawn near the worst ones"));

@@ -117,6 +117,21 @@ TEST_F(Shrink, CarelessUseIsRefusedAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST_F(Shrink, AnOutsideEstimateCannotBeRunAgain) {
+  fs::copy(run(), *folder_ / "outside", fs::copy_options::recursive);
+  ASSERT_EQ(
+      plumbline({"score", *folder_ / "outside", "--estimate", "mine=" + (*folder_ / "outside/odometry.tum")}).code, 1);
+  write_file(*folder_ / "outside/results.json", [&] {
+    std::string text = read_file(*folder_ / "outside/results.json");
+    const std::string found = "\"mine\": {\n      \"verdict\": \"complete\"";
+    return text.replace(text.find(found), found.size(), "\"mine\": {\n      \"verdict\": \"lost\"");
+  }());
+  const Outcome outside =
+      plumbline({"shrink", *folder_ / "outside", "--method", "mine", "--unchecked", "-o", *folder_ / "none"});
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_NE(outside.err.find("'mine' is an outside estimate"), std::string::npos) << outside.err;
+}
+
 TEST_F(Shrink, WhatDoesNotFailOrWasAlteredIsRefused) {
   const std::string good = *folder_ / "good";
   ASSERT_EQ(plumbline({"run", *folder_ / "drifts.yaml", "--method", "truth", "-o", good}).code, 0);

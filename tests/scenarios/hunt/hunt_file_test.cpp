@@ -77,6 +77,7 @@ TEST_F(HuntFiles, WhatIsWrongIsRefusedWhereItStands) {
   expect(start + "vary: [{key: speed_mps, values: [0.5]}, {key: speed_mps, values: [0.6]}]\n", "in the list already");
   expect(start + "vary: [{key: prior.jaw, values: [known]}]\n", "did you mean 'yaw'?");
   expect(start + "vary: [{key: speed_mps, min: 0.5, max: 50}]\n", "speed_mps");
+  expect(start + "vary: [{key: prior.yaw, values: [known, unknwon, unknown]}]\n", "did you mean 'unknown'?");
   expect(start + "vary: [{key: seed, min: 1, max: 2}]\n", "seed");
   expect(start + "methods: [vgipc]\n", "did you mean 'vgicp'?");
   expect(start + "gates: [{metric: ate, method: vgicp, max: 1}]\n", "unknown metric 'ate'");
