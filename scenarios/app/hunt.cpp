@@ -32,6 +32,7 @@ struct HuntArguments {
   int jobs = 0;
   int max_runs = 0;
   int shrink = 0;
+  int shrink_runs = 200;
   std::string fail_on = "fault";
   bool schema = false;
   bool force = false;
@@ -63,8 +64,11 @@ void shrink_findings(const std::string& staging, const HuntResult& result, const
     const std::string folder = staging + "/" + folder_of_finding(i);
     constexpr int gate_failed = 1;
     run_program_once({"run", folder + "/scenario.yaml", "--out", folder + "/run"}, {0, gate_failed});
-    std::vector<std::string> words = {"shrink", folder + "/run",   "--method", finding.failure.method,
-                                      "--out",  folder + "/small", "--jobs",   std::to_string(options.jobs)};
+    std::vector<std::string> words = {"shrink",     folder + "/run",
+                                      "--method",   finding.failure.method,
+                                      "--out",      folder + "/small",
+                                      "--jobs",     std::to_string(options.jobs),
+                                      "--max-runs", std::to_string(options.shrink_runs)};
     if (finding.failure.gate) words.insert(words.end(), {"--gate", finding.failure.gate->metric});
     run_program_once(words, {0});
     progress.at(static_cast<double>(i + 1));
@@ -109,7 +113,13 @@ Command add_hunt(CommandLine& program, slam::MethodTable table) {
   line.option("-o,--out", options->out, "folder for what is found, new or empty").takes("DIR");
   line.option("--max-runs", options->max_runs, "number of runs, in place of the file's").range(1, 100000);
   line.option("--jobs", options->jobs, "runs at a time; no result depends on it [the CPUs allowed]").range(1, 1024);
-  line.option("--shrink", options->shrink, "also runs the worst of the first N kinds and shrinks it").range(1, 1000);
+  const Argument shrink =
+      line.option("--shrink", options->shrink, "also runs the worst of the first N kinds and shrinks it")
+          .range(1, 1000);
+  line.option("--shrink-runs", options->shrink_runs, "with --shrink: greatest number of runs to shrink each with")
+      .range(1, 1'000'000)
+      .needs(shrink)
+      .shows_default();
   line.option("--fail-on", options->fail_on,
               "what makes the exit code 1: fault, a failure that is a method's; or never")
       .one_of({"fault", "never"})

@@ -38,6 +38,7 @@ HuntCases::HuntCases(const Hunt& hunt, const std::string& work, slam::MethodTabl
       const auto& scenario = templates_.try_emplace(base.scenario, base.scenario, base.mark).first->second;
       if (scenario.building_bytes().empty())
         throw InputError(base.mark, "the building of '" + base.scenario + "' does not exist");
+      bytes_.try_emplace(base.scenario, std::make_shared<const std::string>(scenario.building_bytes()));
     }
     check_ends(base);
   }
@@ -68,7 +69,7 @@ void HuntCases::check(const HuntBase& base, Point point) const {
     write_file(work_ + "/" + base.name + ".yaml", write_scenario(scenario));
   }
   const std::string path = base.family ? work_ + "/" + base.name + ".yaml" : base.scenario;
-  const RunCase made = varied(ScenarioTemplate(path, base.mark), base, first, run);
+  const RunCase made = varied(ScenarioTemplate(path, base.mark), nullptr, base, first, run);
   const std::vector<std::string> methods = methods_of_case(made);
   const ProcessTable table = ScenarioTemplate(path, base.mark).methods(table_, base.mark);
   check_methods(methods, std::vector<Mark>(methods.size(), base.mark), table.table());
@@ -77,7 +78,8 @@ void HuntCases::check(const HuntBase& base, Point point) const {
 void HuntCases::make(HuntRun& run) const {
   const HuntBase& base = hunt_.bases[run.base];
   try {
-    run.run = base.family ? generated(base, run) : varied(templates_.at(base.scenario), base, 0, run);
+    run.run = base.family ? generated(base, run)
+                          : varied(templates_.at(base.scenario), bytes_.at(base.scenario), base, 0, run);
   } catch (const InputError& error) {
     const std::string what = error.what();
     const std::size_t place = what.find(": ");
@@ -99,10 +101,11 @@ RunCase HuntCases::generated(const HuntBase& base, HuntRun& run) const {
   const std::string text = bim::write_plan(plan.plan), name = base.name + ".plan.yaml";
   write_file(work_ + "/" + name, text);
   write_file(work_ + "/" + base.name + ".yaml", write_scenario(generated_walk(plan, text, name)));
-  return varied(ScenarioTemplate(work_ + "/" + base.name + ".yaml", base.mark), base, base.family->options.size(), run);
+  return varied(ScenarioTemplate(work_ + "/" + base.name + ".yaml", base.mark),
+                std::make_shared<const std::string>(text), base, base.family->options.size(), run);
 }
 
-RunCase HuntCases::varied(const ScenarioTemplate& scenario, const HuntBase& base, std::size_t first,
+RunCase HuntCases::varied(const ScenarioTemplate& scenario, Bytes bytes, const HuntBase& base, std::size_t first,
                           HuntRun& run) const {
   SweepVariant variant;
   for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k) {
@@ -120,7 +123,7 @@ RunCase HuntCases::varied(const ScenarioTemplate& scenario, const HuntBase& base
   }
   const std::string name = name_in_case(scenario.building());
   tree.set("building", name);
-  return {tree, name, scenario.building_bytes()};
+  return {tree, name, std::move(bytes)};
 }
 
 std::vector<std::string> methods_of_case(const RunCase& run) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ class HuntCases {
   void make(HuntRun& run) const;
 
  private:
+  using Bytes = std::shared_ptr<const std::string>;
   [[nodiscard]] RunCase generated(const HuntBase& base, HuntRun& run) const;
-  [[nodiscard]] RunCase varied(const ScenarioTemplate& scenario, const HuntBase& base, std::size_t first,
+  [[nodiscard]] RunCase varied(const ScenarioTemplate& scenario, Bytes bytes, const HuntBase& base, std::size_t first,
                                HuntRun& run) const;
   void check_ends(const HuntBase& base) const;
   void check(const HuntBase& base, Point point) const;
@@ -36,6 +38,7 @@ class HuntCases {
   std::string work_;
   slam::MethodTable table_;
   std::map<std::string, ScenarioTemplate> templates_;  ///< by path
+  std::map<std::string, Bytes> bytes_;                 ///< of their buildings
 };
 
 [[nodiscard]] std::vector<std::string> methods_of_case(const RunCase& run);

@@ -2,7 +2,6 @@
 #include "scenarios/shrink/building_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "bim/formats/plan_yaml/plan_write.h"

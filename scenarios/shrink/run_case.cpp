@@ -19,13 +19,13 @@ RunCase read_case(const std::string& scenario_path) {
   const fs::path folder = fs::absolute(scenario_path).parent_path().lexically_normal();
   const fs::path building = folder / scenario.building;
   RunCase run{with_process_folders(read_yaml(text, scenario_path), folder.string()), building.filename().string(),
-              bim::read_building_file(building.string())};
+              std::make_shared<const std::string>(bim::read_building_file(building.string()))};
   run.scenario.set("building", run.building);
   return run;
 }
 
 void write_case(const std::string& folder, const RunCase& run) {
-  write_file(folder + "/" + run.building, run.bytes);
+  write_file(folder + "/" + run.building, *run.bytes);
   write_file(folder + "/scenario.yaml", write_yaml(run.scenario));
 }
 
@@ -36,7 +36,7 @@ std::uint64_t seed_of(const RunCase& run) {
 }
 
 std::uint64_t digest_of(const RunCase& run) {
-  return Digest().add(write_yaml(run.scenario)).add(run.building).add(run.bytes).value();
+  return Digest().add(write_yaml(run.scenario)).add(run.building).add(*run.bytes).value();
 }
 
 }  // namespace plumbline::scenarios

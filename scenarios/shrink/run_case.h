@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "bim/config/tree.h"
@@ -10,9 +11,9 @@ namespace plumbline::scenarios {
 
 /// What a run is made of: a scenario and the building beside it.
 struct RunCase {
-  Tree scenario;         ///< its `building` is `building`, its processes have whole folders
-  std::string building;  ///< name of the building's file
-  std::string bytes;     ///< of that file
+  Tree scenario;                             ///< its `building` is `building`, its processes have whole folders
+  std::string building;                      ///< name of the building's file
+  std::shared_ptr<const std::string> bytes;  ///< of that file, which many runs may share
 };
 
 /// Of a run directory, or of any scenario with its building. Throws InputError.

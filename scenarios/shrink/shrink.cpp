@@ -107,7 +107,7 @@ std::vector<std::string> names_of_all(const std::vector<Ingredient>& ingredients
 std::vector<Ingredient> all_ingredients(const RunCase& run) {
   std::vector<Ingredient> all = ingredients_of(run.scenario);
   const Tree* furniture = run.scenario.find("furniture");
-  if (!plan_tree(run.bytes, run.building) && furniture != nullptr && furniture->as_bool())
+  if (!plan_tree(*run.bytes, run.building) && furniture != nullptr && furniture->as_bool())
     all.push_back({"furniture", "furniture", std::nullopt, Tree(false)});
   return all;
 }
@@ -158,7 +158,7 @@ bool shorten_route(ShrinkSearch& search) {
 bool take_building_apart(ShrinkSearch& search) {
   bool any = false;
   for (const std::string& kind : kinds_of_parts()) {
-    const std::optional<Tree> plan = plan_tree(search.best().bytes, search.best().building);
+    const std::optional<Tree> plan = plan_tree(*search.best().bytes, search.best().building);
     if (!plan || parts_in(*plan, kind) == 0) continue;
     std::vector<std::string> names;
     for (const Tree& entry : plan->find(kind)->as_list()) {
@@ -168,7 +168,7 @@ bool take_building_apart(ShrinkSearch& search) {
     }
     const bool fewer = search.minimize_parts(names, [&](const RunCase& best, const Kept& kept) {
       RunCase run = best;
-      run.bytes = plan_text(with_parts(*plan, kind, kept));
+      run.bytes = std::make_shared<const std::string>(plan_text(with_parts(*plan, kind, kept)));
       return run;
     });
     any = fewer || any;
@@ -195,7 +195,7 @@ CaseSize size_of(const RunCase& run, const Tree& results) {
   size.methods = static_cast<int>(length_at(run.scenario, "methods"));
   const Route route = read_scenario(write_yaml(run.scenario), "scenario.yaml").scenario.route;
   size.rooms = route.shuttle ? route.times : static_cast<int>(route.rooms.size()) * route.loop;
-  if (const std::optional<Tree> plan = plan_tree(run.bytes, run.building)) size.elements = parts_in(*plan);
+  if (const std::optional<Tree> plan = plan_tree(*run.bytes, run.building)) size.elements = parts_in(*plan);
   return size;
 }
 

@@ -59,6 +59,19 @@ TEST_F(HuntSlips, DoesNotDependOnJobsAndCanGoWithoutFailing) {
         << file;
 }
 
+TEST_F(HuntSlips, ShrinksWhatItFindsWhenAsked) {
+  const Outcome shrunk = hunt("hunt.yaml", *folder_ / "shrunk", {"--shrink", "1", "--shrink-runs", "3"});
+  EXPECT_EQ(shrunk.code, 1) << shrunk.err;
+  const std::string first = *folder_ / "shrunk/failures/01/";
+  const Tree run = read_json(read_file(first + "run/results.json"), "results.json");
+  EXPECT_EQ(run.find("methods")->as_map().size(), 2U);
+  const Tree json = read_json(read_file(first + "small/shrink.json"), "shrink.json");
+  EXPECT_EQ(json.find("failure")->find("method")->as_string(), "odometry");
+  EXPECT_EQ(json.find("runs")->as_int(), 3);
+  EXPECT_EQ(json.find("after")->find("methods")->as_int(), 1);
+  EXPECT_EQ(plumbline({"hunt", *folder_ / "hunt.yaml", "-o", *folder_ / "none", "--shrink-runs", "3"}).code, 2);
+}
+
 TEST_F(HuntSlips, ABoundThatNobodyKeepsIsNobodysFault) {
   write_file(*folder_ / "strict.yaml",
              hunt_file("gates: [{metric: ate_aligned_rmse_m, method: odometry, max: 1e-9}]\n"));

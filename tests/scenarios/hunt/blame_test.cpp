@@ -90,7 +90,8 @@ TEST(Outcomes, LeaveOutTheTruthAndPreferAFaultOfTheMethod) {
 /// A run of a scenario with this heading, whose method ended so.
 HuntRun hunt_run(const std::string& yaw, const std::string& verdict, const std::string& evidence, double badness) {
   HuntRun run;
-  run.run = RunCase{read_yaml("scenario: 1\nbuilding: a.plan.yaml\nprior: {yaw: " + yaw + "}\n", "a.yaml"), "a", ""};
+  run.run = RunCase{read_yaml("scenario: 1\nbuilding: a.plan.yaml\nprior: {yaw: " + yaw + "}\n", "a.yaml"), "a",
+                    std::make_shared<const std::string>()};
   run.outcomes = outcomes_of(results(localization(verdict, evidence)));
   run.outcomes.front().badness = badness;
   return run;

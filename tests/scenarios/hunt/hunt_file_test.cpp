@@ -108,7 +108,7 @@ TEST_F(HuntFiles, ARunHasWhatWasDrawnAndItsSeed) {
   HuntRun other = corridor;
   other.seed = 79;
   cases.make(other);
-  EXPECT_NE(other.run->bytes, corridor.run->bytes);  // sizes are drawn from the run's seed
+  EXPECT_NE(*other.run->bytes, *corridor.run->bytes);  // sizes are drawn from the run's seed
 }
 
 TEST_F(HuntFiles, SizesThatNoBuildingHasMakeNoRunAndSayWhy) {
