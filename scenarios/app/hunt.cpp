@@ -54,23 +54,33 @@ void write_findings(const std::string& staging, const HuntResult& result) {
 /// A crash of the whole program leaves no run to shrink.
 bool leaves_run(const HuntFinding& finding) { return !finding.failure.error.starts_with("the program died"); }
 
-/// Runs the first findings and shrinks those runs, in processes of their own.
-void shrink_findings(const std::string& staging, const HuntResult& result, const HuntArguments& options) {
+/// Runs a finding and shrinks that run, in processes of their own.
+void shrink_finding(const std::string& folder, const HuntFinding& finding, const HuntArguments& options) {
+  constexpr int gate_failed = 1;
+  run_program_once({"run", folder + "/scenario.yaml", "--out", folder + "/run"}, {0, gate_failed});
+  std::vector<std::string> words = {"shrink",     folder + "/run",
+                                    "--method",   finding.failure.method,
+                                    "--out",      folder + "/small",
+                                    "--jobs",     std::to_string(options.jobs),
+                                    "--max-runs", std::to_string(options.shrink_runs)};
+  if (finding.failure.gate) words.insert(words.end(), {"--gate", finding.failure.gate->metric});
+  run_program_once(words, {0});
+}
+
+/// The first findings. What was found stays when this is interrupted.
+void shrink_findings(const std::string& staging, HuntResult& result, const HuntArguments& options) {
   const auto count = std::min(result.findings.size(), static_cast<std::size_t>(options.shrink));
   Progress progress("shrink", {static_cast<double>(count), "findings"});
   for (std::size_t i = 0; i < count; ++i) {
-    const HuntFinding& finding = result.findings[i];
-    if (!leaves_run(finding)) continue;
+    if (!leaves_run(result.findings[i])) continue;
     const std::string folder = staging + "/" + folder_of_finding(i);
-    constexpr int gate_failed = 1;
-    run_program_once({"run", folder + "/scenario.yaml", "--out", folder + "/run"}, {0, gate_failed});
-    std::vector<std::string> words = {"shrink",     folder + "/run",
-                                      "--method",   finding.failure.method,
-                                      "--out",      folder + "/small",
-                                      "--jobs",     std::to_string(options.jobs),
-                                      "--max-runs", std::to_string(options.shrink_runs)};
-    if (finding.failure.gate) words.insert(words.end(), {"--gate", finding.failure.gate->metric});
-    run_program_once(words, {0});
+    try {
+      shrink_finding(folder, result.findings[i], options);
+    } catch (const Interrupted& interrupted) {
+      for (const char* unfinished : {"/run", "/small"}) fs::remove_all(folder + unfinished);
+      result.signal = interrupted.signal();
+      return;
+    }
     progress.at(static_cast<double>(i + 1));
   }
 }
@@ -89,7 +99,7 @@ int hunt(HuntArguments options, slam::MethodTable table) {
   RunDirectory directory(options.out, DirectoryKind::hunt, options.force);
   const std::string work = directory.staging() + "/work";
   fs::create_directory(work);
-  const HuntResult result = hunt_with_progress(hunt, work, options.jobs, table);
+  HuntResult result = hunt_with_progress(hunt, work, options.jobs, table);
   std::error_code error;
   fs::remove_all(work, error);
   if (result.runs.empty()) throw Interrupted(result.signal);

@@ -63,10 +63,17 @@ void check_made_by_run(const FailureSignature& failure, const RunCase& run) {
                                              "the scenario");
 }
 
-/// The smallest run with all its files, which must fail the same way.
-void run_smallest(const std::string& staging, const Shrunk& shrunk) {
+/// The smallest run with all its files, which must fail the same way. What was found stays when this is interrupted.
+void run_smallest(const std::string& staging, Shrunk& shrunk) {
   constexpr int gate_failed = 1;
-  run_program_once({"run", staging + "/scenario.yaml", "--out", staging + "/run"}, {0, gate_failed});
+  try {
+    run_program_once({"run", staging + "/scenario.yaml", "--out", staging + "/run"}, {0, gate_failed});
+  } catch (const Interrupted& interrupted) {
+    fs::remove_all(staging + "/run");
+    shrunk.end = ShrinkEnd::interrupted;
+    shrunk.signal = interrupted.signal();
+    return;
+  }
   const std::string other = difference_to(shrunk.failure, results_in(staging + "/run"));
   if (!other.empty()) throw InternalError("the smallest run does not fail again: " + other);
 }

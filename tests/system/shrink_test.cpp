@@ -93,6 +93,20 @@ TEST_F(Shrink, InterruptedItLeavesTheSmallestSoFarOrNothing) {
   EXPECT_FALSE(fs::exists(out + "/.partial"));
 }
 
+TEST_F(Shrink, InterruptedInItsLastRunItKeepsWhatItFound) {
+  const std::string out = *folder_ / "nearly";
+  Setting setting;
+  setting.signal = SIGTERM;
+  setting.kill_when = [&] { return fs::exists(out + "/.partial/run"); };
+  const Outcome stopped = plumbline({"shrink", run(), "-o", out, "--max-runs", "1"}, setting);
+  EXPECT_EQ(stopped.code, 128 + SIGTERM) << stopped.err;
+  EXPECT_TRUE(fs::exists(out + "/scenario.yaml"));
+  EXPECT_EQ(read_json(read_file(out + "/shrink.json"), "shrink.json").find("end")->as_string(), "interrupted");
+  EXPECT_FALSE(fs::exists(out + "/run"));
+  EXPECT_EQ(shrink(out, {"--force", "--keep", "duration,ingredients,building"}).code, 0);
+  EXPECT_TRUE(fs::exists(out + "/run/results.json"));
+}
+
 TEST_F(Shrink, CarelessUseIsRefusedAndLeavesNothing) {
   const auto error = [&](const std::vector<std::string>& arguments) {
     const Outcome outcome = plumbline(arguments);
