@@ -67,8 +67,9 @@ std::string value_at(const HuntRange& range, double u) {
   if (range.whole) {
     const double from = range.log ? std::log(least) : least, to = range.log ? std::log(greatest + 1.0) : greatest + 1.0;
     const double value = from + u * (to - from);
-    return format_number(std::clamp(std::floor(range.log ? std::exp(value) : value), std::ceil(least),
-                                    std::max(std::ceil(least), std::floor(greatest))));
+    // All digits: a scenario takes 1e+05 for no whole number.
+    return std::to_string(std::llround(std::clamp(std::floor(range.log ? std::exp(value) : value), std::ceil(least),
+                                                  std::max(std::ceil(least), std::floor(greatest)))));
   }
   const double value = range.log ? least * std::pow(greatest / least, u) : least + u * (greatest - least);
   return rounded(std::clamp(value, least, greatest));

@@ -76,6 +76,12 @@ TEST(HuntValue, RangesAreCoveredFromEndToEnd) {
   EXPECT_EQ(value_at(named, 0.999999), "c");
 }
 
+TEST(HuntValue, WholeNumbersHaveAllTheirDigits) {
+  HuntRange whole = range(100000, 100000);
+  whole.whole = true;
+  EXPECT_EQ(value_at(whole, 0.5), "100000");
+}
+
 TEST(HuntValue, WholeNumbersAreEquallyLikely) {
   for (const bool log : {false, true}) {
     HuntRange whole = range(3, 6);
