@@ -161,9 +161,18 @@ VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan)
   return out;
 }
 
+bool VgicpOdometry::bends(const DeskewedScan& scan) const {
+  const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
+  const double sweep_s = static_cast<double>(*last) - static_cast<double>(*first);
+  std::vector<double> distances_m = {config_.reference_range_m};
+  for (const Surfel& surfel : scan_.registered) distances_m.push_back(surfel.mean_R.norm());
+  const double distance_m = std::max(config_.reference_range_m, upper_median(std::move(distances_m)));
+  return scan.twist_sigma.radps * sweep_s * distance_m > scan.twist_sigma.least_bend_m;
+}
+
 void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
                                   const OdometrySample& odometry, Registration& result) {
-  if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0)) return;
+  if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0) || !bends(scan)) return;
   const std::array<RegistrationConfig, 2> configs = {scan_.fine, coarser(registration_, maps_[1].voxel_m())};
   const Vector6d twist = sweep_twist(scan_.registered, std::span(maps_).first(configs.size()), result.X_MR, prior,
                                      scan.twist_sigma, configs);
@@ -268,7 +277,7 @@ const VgicpOdometry::Keyframe& VgicpOdometry::keyframe_apart_from(const Pose& X_
 }
 
 std::vector<Eigen::Vector3d> VgicpOdometry::returns_of(const DeskewedScan& scan) const {
-  return thinned_returns(scan, surfels_.min_range_m, surfels_.max_range_m);
+  return thinned_returns(scan, surfels_.min_range_m, correlation_range_m * scale_);
 }
 
 std::optional<Registration> VgicpOdometry::align_correlated(const DeskewedScan& scan, const Registration& found,
@@ -357,7 +366,6 @@ void VgicpOdometry::set_scale(double scale) {
   surfels_ = config_.surfels;
   surfels_.voxel_m *= scale;
   surfels_.radius_m *= scale;
-  surfels_.max_range_m *= scale;
   surfels_.max_thickness_m *= scale;
   registration_ = config_.registration;
   registration_.sigma_tangent_m *= scale;
