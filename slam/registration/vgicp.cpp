@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "bim/median.h"
+#include "slam/registration/far_surfaces.h"
 #include "slam/registration/support.h"
 #include "slam/registration/sweep_twist.h"
 
@@ -39,15 +39,6 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   kept.reserve(most);
   for (std::size_t k = 0; k < most; ++k) kept.push_back(all[k * all.size() / most]);
   return kept;
-}
-
-/// Median range of every eighth return, 0 without any.
-double median_range(const DeskewedScan& scan) {
-  constexpr std::size_t stride = 8;
-  std::vector<double> ranges;
-  for (std::size_t i = 0; i < scan.range_m.size(); i += stride)
-    if (scan.range_m[i] > 0.0) ranges.push_back(scan.range_m[i]);
-  return ranges.empty() ? 0.0 : upper_median(std::move(ranges));
 }
 
 /// For a level of the map whose voxels are this large: surfaces bend within a voxel, and the start is off by some of
@@ -148,6 +139,7 @@ bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
 VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
   ScanFeatures out;
   Surfaces surfaces = find_surfaces(scan, surfels_);
+  drop_few_far(surfaces, correlation_range_m * scale_);
   out.surfels = std::move(surfaces.surfels);
   if (config_.rough_points) out.rough_R = thinned(surfaces.rough_R, most_rough);
   out.fine = registration_;
@@ -164,9 +156,7 @@ VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan)
 bool VgicpOdometry::bends(const DeskewedScan& scan) const {
   const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
   const double sweep_s = static_cast<double>(*last) - static_cast<double>(*first);
-  std::vector<double> distances_m = {config_.reference_range_m};
-  for (const Surfel& surfel : scan_.registered) distances_m.push_back(surfel.mean_R.norm());
-  const double distance_m = std::max(config_.reference_range_m, upper_median(std::move(distances_m)));
+  const double distance_m = std::max(config_.reference_range_m, median_distance(scan_.registered));
   return scan.twist_sigma.radps * sweep_s * distance_m > scan.twist_sigma.least_bend_m;
 }
 
