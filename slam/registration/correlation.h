@@ -28,6 +28,9 @@ class ReturnVoxels {
   VoxelIndex index_;
 };
 
+/// From where on returns do not count in rooms: turns that are not searched move them.
+inline constexpr double correlation_range_m = 30.0;
+
 /// The first return of each such voxel, of those in range.
 [[nodiscard]] std::vector<Eigen::Vector3d> thinned_returns(const DeskewedScan& scan, double min_range_m,
                                                            double max_range_m);

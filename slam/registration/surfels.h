@@ -14,7 +14,7 @@ namespace plumbline::slam {
 
 struct SurfelConfig {
   double min_range_m = 0.5;
-  double max_range_m = 30.0;
+  double max_range_m = 200.0;
   double voxel_m = 0.2;
   double radius_m = 0.3;
   double ring_gap_per_m = 0.3;

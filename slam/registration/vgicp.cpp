@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "bim/median.h"
+#include "slam/registration/far_surfaces.h"
 #include "slam/registration/support.h"
 #include "slam/registration/sweep_twist.h"
 
@@ -39,15 +39,6 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   kept.reserve(most);
   for (std::size_t k = 0; k < most; ++k) kept.push_back(all[k * all.size() / most]);
   return kept;
-}
-
-/// Median range of every eighth return, 0 without any.
-double median_range(const DeskewedScan& scan) {
-  constexpr std::size_t stride = 8;
-  std::vector<double> ranges;
-  for (std::size_t i = 0; i < scan.range_m.size(); i += stride)
-    if (scan.range_m[i] > 0.0) ranges.push_back(scan.range_m[i]);
-  return ranges.empty() ? 0.0 : upper_median(std::move(ranges));
 }
 
 /// For a level of the map whose voxels are this large: surfaces bend within a voxel, and the start is off by some of
@@ -148,6 +139,7 @@ bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
 VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
   ScanFeatures out;
   Surfaces surfaces = find_surfaces(scan, surfels_);
+  drop_few_far(surfaces, correlation_range_m * scale_);
   out.surfels = std::move(surfaces.surfels);
   if (config_.rough_points) out.rough_R = thinned(surfaces.rough_R, most_rough);
   out.fine = registration_;
@@ -161,9 +153,16 @@ VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan)
   return out;
 }
 
+bool VgicpOdometry::bends(const DeskewedScan& scan) const {
+  const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
+  const double sweep_s = static_cast<double>(*last) - static_cast<double>(*first);
+  const double distance_m = std::max(config_.reference_range_m, median_distance(scan_.registered));
+  return scan.twist_sigma.radps * sweep_s * distance_m > scan.twist_sigma.least_bend_m;
+}
+
 void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
                                   const OdometrySample& odometry, Registration& result) {
-  if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0)) return;
+  if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0) || !bends(scan)) return;
   const std::array<RegistrationConfig, 2> configs = {scan_.fine, coarser(registration_, maps_[1].voxel_m())};
   const Vector6d twist = sweep_twist(scan_.registered, std::span(maps_).first(configs.size()), result.X_MR, prior,
                                      scan.twist_sigma, configs);
@@ -268,7 +267,7 @@ const VgicpOdometry::Keyframe& VgicpOdometry::keyframe_apart_from(const Pose& X_
 }
 
 std::vector<Eigen::Vector3d> VgicpOdometry::returns_of(const DeskewedScan& scan) const {
-  return thinned_returns(scan, surfels_.min_range_m, surfels_.max_range_m);
+  return thinned_returns(scan, surfels_.min_range_m, correlation_range_m * scale_);
 }
 
 std::optional<Registration> VgicpOdometry::align_correlated(const DeskewedScan& scan, const Registration& found,
@@ -357,7 +356,6 @@ void VgicpOdometry::set_scale(double scale) {
   surfels_ = config_.surfels;
   surfels_.voxel_m *= scale;
   surfels_.radius_m *= scale;
-  surfels_.max_range_m *= scale;
   surfels_.max_thickness_m *= scale;
   registration_ = config_.registration;
   registration_.sigma_tangent_m *= scale;

@@ -151,6 +151,9 @@ class VgicpOdometry {
   [[nodiscard]] const Keyframe& keyframe_apart_from(const Pose& X_MR) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> returns_of(const DeskewedScan& scan) const;
   [[nodiscard]] bool is_new_view(const Pose& X_MR) const;
+  /// Whether what is not known of the motion during the scan moves what it sees, not nearer than in a room, by more
+  /// than its least_bend_m.
+  [[nodiscard]] bool bends(const DeskewedScan& scan) const;
   /// Corrects the scan by the motion during it that its deskewing did not know, and places it again.
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);

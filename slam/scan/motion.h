@@ -86,6 +86,7 @@ struct OdometrySample {
 struct TwistSigma {
   double mps = 0.0;
   double radps = 0.0;
+  double least_bend_m = 0.0;  ///< by which it moves what a scan sees, from the first return to the last, to count
 };
 
 /// A scan with every return moved to R at scan.stamp. Index of a return: column * rings + ring; rings are in line, that

@@ -47,6 +47,13 @@ TEST(RingSurfels, KnowTheNormalOfANoisyWallNearBy) {
   }
 }
 
+// Whatever their distance, as few returns as these may be all that tells the way.
+TEST(RingSurfels, ReachAsFarAsReturnsDo) {
+  RandomValues random(74, 0);
+  const std::vector<Surfel> surfels = make_surfels(scan_of_wall(60.0, 0.01, random), {});
+  EXPECT_GT(surfels.size(), 500U);
+}
+
 /// Points 0.2 m apart on all sides of a hall, seen from its middle, without rings.
 DeskewedScan scan_of_hall(const Eigen::Vector3d& size, const Eigen::Vector3d& from, RandomValues& random) {
   constexpr double spacing_m = 0.2, noise_m = 0.01;

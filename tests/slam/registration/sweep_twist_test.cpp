@@ -76,6 +76,36 @@ TEST(SweepTwist, IsFoundTogetherWithThePose) {
   }
 }
 
+/// What the correction of a scan in the middle of this room is, where it is known as well as of one at 10 Hz.
+Vector6d twist_in(const synthetic::House& house, const Eigen::Vector3d& at, double radps) {
+  const auto scan_of = [&](std::uint64_t seed) {
+    synthetic::WalkConfig walk;
+    walk.seed = seed;
+    MotionBuffer still;
+    still.add({0, Pose{}});
+    return deskew(synthetic::standing_scan(house, Pose::from_xyz_yaw(at, 0.4), walk), still, synthetic::calibration());
+  };
+  VgicpOdometry odometry{VgicpConfig{}};
+  odometry.commit(odometry.match(scan_of(1), standing()).X_MR, true);
+  DeskewedScan scan = scan_of(2);
+  Vector6d twist = Vector6d::Zero();
+  twist(5) = 0.1;
+  correct_motion(scan, -twist);
+  scan.twist_sigma = {0.1, radps, 0.18};
+  return odometry.match(scan, standing()).sweep_twist;
+}
+
+// By 0.02 rad a scan is bent as a whole pace in a hall, and hardly in a room.
+TEST(SweepTwist, IsSoughtWhereItMovesWhatIsSeen) {
+  synthetic::House hall = synthetic::one_room(60.0, 40.0);
+  hall.height_m = 8.0;
+  for (synthetic::Box& wall : hall.boxes) wall.max.z() = hall.height_m;
+  const Vector6d in_hall = twist_in(hall, {30.0, 20.0, 0.5}, 0.2);
+  EXPECT_NEAR(in_hall(5), 0.1, 0.03);
+  EXPECT_TRUE(twist_in(synthetic::one_room(), {3.0, 2.0, 0.5}, 0.2).isZero(0.0));
+  EXPECT_FALSE(twist_in(synthetic::one_room(), {3.0, 2.0, 0.5}, 0.4).isZero(0.0));
+}
+
 TEST(SweepTwist, AMotionThatWasMeasuredStays) {
   VgicpOdometry odometry{VgicpConfig{}};
   const OdometrySample still = standing();
