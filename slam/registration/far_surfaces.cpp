@@ -25,13 +25,17 @@ double median_distance(std::span<const Surfel> surfels) {
   return distances_m.empty() ? 0.0 : upper_median(std::move(distances_m));
 }
 
-void drop_few_far(Surfaces& surfaces, double far_m) {
+std::vector<Eigen::Vector3d> within(std::vector<Eigen::Vector3d> points_R, double far_m) {
+  std::erase_if(points_R, [&](const Eigen::Vector3d& p_R) { return p_R.norm() > far_m; });
+  return points_R;
+}
+
+std::vector<Surfel> without_few_far(std::vector<Surfel> surfels, double far_m) {
   constexpr double least_share = 0.1;  // assumed; 0.9 in a bare hall of 100 x 80 m
-  std::erase_if(surfaces.rough_R, [&](const Eigen::Vector3d& p_R) { return p_R.norm() > far_m; });
   const auto is_far = [&](const Surfel& surfel) { return surfel.mean_R.norm() > far_m; };
-  const auto far = std::count_if(surfaces.surfels.begin(), surfaces.surfels.end(), is_far);
-  if (static_cast<double>(far) < least_share * static_cast<double>(surfaces.surfels.size()))
-    std::erase_if(surfaces.surfels, is_far);
+  const auto far = std::count_if(surfels.begin(), surfels.end(), is_far);
+  if (static_cast<double>(far) < least_share * static_cast<double>(surfels.size())) std::erase_if(surfels, is_far);
+  return surfels;
 }
 
 }  // namespace plumbline::slam

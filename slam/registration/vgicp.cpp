@@ -138,16 +138,16 @@ bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
 
 VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
   ScanFeatures out;
+  const double far_m = correlation_range_m * scale_;
   Surfaces surfaces = find_surfaces(scan, surfels_);
-  drop_few_far(surfaces, correlation_range_m * scale_);
   out.surfels = std::move(surfaces.surfels);
-  if (config_.rough_points) out.rough_R = thinned(surfaces.rough_R, most_rough);
+  if (config_.rough_points) out.rough_R = thinned(within(surfaces.rough_R, far_m), most_rough);
   out.fine = registration_;
   if (has_ring_image(scan))
     out.edges_R = edge_points(scan, config_.edges);
   else
     out.fine.sigma_tangent_m *= lattice_slack;
-  out.registered = thinned(out.surfels, most_registered);
+  out.registered = thinned(without_few_far(out.surfels, far_m), most_registered);
   for (std::size_t k = 0; k < out.registered.size(); k += static_cast<std::size_t>(config_.coarse_share))
     out.subsample.push_back(out.registered[k]);
   return out;
