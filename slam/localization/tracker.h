@@ -134,9 +134,10 @@ struct TrackerConfig {
       Field{.doc = "standard deviation of the LiDAR's range bias before any wall is seen", .min = 1e-6});
     v("wall_tolerance_m", wall_tolerance_m,
       Field{.doc = "standard deviation of a wall's offset from the plan, before residuals of walls are measured",
-            .min = 1e-6});
+            .min = 1e-6,
+            .max = 0.05});
     v("wall_tolerance_min_m", wall_tolerance_min_m,
-      Field{.doc = "and its least value, however small they are", .min = 1e-6});
+      Field{.doc = "and its least value, however small they are", .min = 1e-6, .max = 0.05});
     // Least value: chosen on 46 furnished walks, with NEES. Weight: on four (generator seeds 10302 to 10304 and 10307)
     // and on quickstart, with walls as planned and walls that stand off by 15 and 20 mm (1 sigma), with NEES.
     v("wall_tolerance_weight", wall_tolerance_weight,

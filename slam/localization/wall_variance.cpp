@@ -124,7 +124,8 @@ WallTolerances::WallTolerances(const TrackerConfig& config) : least_m_(config.wa
 }
 
 WallTolerance WallTolerances::tolerance(int i) const {
-  return {least_m_ * std::pow(1.5, i % offsets), std::pow(0.25, i / offsets), direction_};
+  return {least_m_ * std::pow(largest_m / least_m_, static_cast<double>(i % offsets) / (offsets - 1)),
+          std::pow(0.25, i / offsets), direction_};
 }
 
 std::array<double, WallTolerances::count> WallTolerances::probabilities() const {

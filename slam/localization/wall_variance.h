@@ -53,9 +53,11 @@ struct BiasPrior {
 /// four walls tells little of its own, so that no single one is certain. Directions: the variance of unit weight.
 class WallTolerances {
  public:
-  /// The tolerances that are compared, each larger than the one before by a factor of 1.5, with each share of the
-  /// noise, a quarter of the one before.
+  /// The tolerances that are compared, from the least to largest_m in equal ratios, each with each share of the noise,
+  /// a quarter of the one before.
   static constexpr int offsets = 10, noises = 3, count = offsets * noises;
+
+  static constexpr double largest_m = 0.077;  ///< assumed
 
   explicit WallTolerances(const TrackerConfig& config);
 

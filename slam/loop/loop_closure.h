@@ -23,7 +23,7 @@ struct LoopConfig {
   double inflation = 50.0;
   double sigma_m = 0.015;
   double sigma_rad = 0.004;
-  SurfelConfig surfels;
+  SurfelConfig surfels{.max_range_m = 30.0};  // poses of keyframes far off turn what is far by metres
   RegistrationConfig registration;
 
   template <class V>

@@ -71,7 +71,7 @@ void StartTrial::end() {
 std::vector<Eigen::Vector3d> StartTrial::other_velocities() const {
   constexpr double most_window_m = 8.0;  // bounds the time: assumed
   const SurfelConfig& config = config_.vgicp.surfels;
-  const double max_range_m = correlation_range_m * config_.vgicp.largest_scale;
+  const double max_range_m = std::min(config.max_range_m, correlation_range_m * config_.vgicp.largest_scale);
   const auto returns_of = [&](const Scan& scan) {
     return thinned_returns(as_deskewed(scan, calibration_), config.min_range_m, max_range_m);
   };

@@ -267,7 +267,7 @@ const VgicpOdometry::Keyframe& VgicpOdometry::keyframe_apart_from(const Pose& X_
 }
 
 std::vector<Eigen::Vector3d> VgicpOdometry::returns_of(const DeskewedScan& scan) const {
-  return thinned_returns(scan, surfels_.min_range_m, correlation_range_m * scale_);
+  return thinned_returns(scan, surfels_.min_range_m, std::min(surfels_.max_range_m, correlation_range_m * scale_));
 }
 
 std::optional<Registration> VgicpOdometry::align_correlated(const DeskewedScan& scan, const Registration& found,

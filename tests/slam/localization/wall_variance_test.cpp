@@ -86,6 +86,7 @@ TEST(WallTolerances, AsManyWallsAsFixAPoseTellNothing) {
   const TrackerConfig config;
   WallTolerances tolerances(config);
   const double expected = tolerances.mean().offset_m;
+  EXPECT_NEAR(expected, 0.024, 0.001);  // of the prior, whose tail ends with the tolerances compared
   std::vector<SeenWall> walls(2);
   walls[0] = {{1.0, 0.0, 0.0, 1.0}, 0.09, 1e6, 3.0, 1.0, 0.0};
   walls[1] = {{0.0, 1.0, 0.0, 1.0}, -0.07, 1e6, 3.0, 1.0, 0.0};
