@@ -89,7 +89,7 @@ TEST_F(HuntFiles, WhatIsWrongIsRefusedWhereItStands) {
   expect(start + "methods: [vgicp]\n" + gate + "vgicpp, max: 1}]\n", "hunt.yaml:4:9: unknown method 'vgicpp'");
   expect(start + "methods: [vgicp]\n" + gate + "odometry, max: 1}]\n", "'odometry' is not one of the methods");
   const std::string corridor = "hunt: 1\ngenerate: [{family: corridor, options: [{key: ";
-  expect(corridor + "epsilon_m, min: 0.15, max: 0.6}]}]\n", "hunt.yaml:2:42: 'epsilon_m' 0.6 is out of range");
+  expect(corridor + "epsilon_m, min: 0.15, max: 0.6}]}]\n", "hunt.yaml:2:41: 'epsilon_m': 0.6 is out of range");
   expect(corridor + "rooms, min: 1, max: 4}]}]\n", "out of range");
   expect(corridor + "rooms, min: 3.2, max: 3.8}]}]\n", "no whole number lies between");
   expect(corridor + "feature, values: [column, pillar]}]}]\n", "pillar");
