@@ -89,6 +89,14 @@ TEST_F(HuntSlips, AFindingThatCannotBeShrunkIsNotedAndTheHuntStays) {
   EXPECT_TRUE(fs::exists(*folder_ / "crashed/failures/01/scenario.yaml"));
 }
 
+TEST_F(HuntSlips, WhereEveryWalkFailsTheTablesSayWhy) {
+  write_file(*folder_ / "pushed.yaml", read_file(*folder_ / "walk.yaml") + "pushes: {max_n: 1000, every_s: 1}\n");
+  write_file(*folder_ / "falls.yaml", "hunt: 1\nscenarios: [pushed.yaml]\nruns: 1\nmethods: [odometry]\n");
+  const Outcome falls = hunt("falls.yaml", *folder_ / "falls");
+  EXPECT_EQ(falls.code, 4) << falls.err;
+  EXPECT_NE(read_file(*folder_ / "falls/hunt.csv").find("the robot fell"), std::string::npos);
+}
+
 TEST_F(HuntSlips, ABoundThatNobodyKeepsIsNobodysFault) {
   write_file(*folder_ / "strict.yaml",
              hunt_file("gates: [{metric: ate_aligned_rmse_m, method: odometry, max: 1e-9}]\n"));
