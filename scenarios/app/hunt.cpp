@@ -40,14 +40,14 @@ struct HuntArguments {
 
 HuntResult hunt_with_progress(const Hunt& hunt, const std::string& work, int jobs, slam::MethodTable table) {
   Progress progress(hunt.file.name, {static_cast<double>(hunt.file.runs), "runs"});
-  return run_hunt(hunt, {work, jobs, [&](int runs) { progress.at(runs); }}, table);
+  return run_hunt(hunt, {work, jobs, [&](int runs) { progress.at(runs); }, {}}, table);
 }
 
 void write_findings(const std::string& staging, const HuntResult& result) {
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
     const std::string folder = staging + "/" + folder_of_finding(i);
     fs::create_directories(folder);
-    write_case(folder, *result.runs[result.findings[i].worst].run);
+    write_case(folder, case_of(result, result.findings[i]));
   }
 }
 
@@ -67,7 +67,16 @@ void shrink_finding(const std::string& folder, const HuntFinding& finding, const
   run_program_once(words, {0});
 }
 
-/// The first findings. What was found stays when this is interrupted.
+void write_tables(const std::string& staging, const Hunt& hunt, const HuntResult& result) {
+  write_file(staging + "/hunt.csv", hunt_csv(hunt, result));
+  write_file(staging + "/hunt.json", write_json(hunt_results(hunt, result)) + "\n");
+}
+
+void note_unshrunk(const std::string& folder, const std::string& why) {
+  print_note("plumbline: warning: " + printable(folder) + " is not shrunk: " + printable(why));
+}
+
+/// The first findings. What was found stays when this is interrupted, or when one of them cannot be shrunk.
 void shrink_findings(const std::string& staging, HuntResult& result, const HuntArguments& options) {
   const auto count = std::min(result.findings.size(), static_cast<std::size_t>(options.shrink));
   Progress progress("shrink", {static_cast<double>(count), "findings"});
@@ -80,6 +89,10 @@ void shrink_findings(const std::string& staging, HuntResult& result, const HuntA
       for (const char* unfinished : {"/run", "/small"}) fs::remove_all(folder + unfinished);
       result.signal = interrupted.signal();
       return;
+    } catch (const EnvironmentError& error) {
+      note_unshrunk(folder_of_finding(i), error.what());
+    } catch (const InputError& error) {
+      note_unshrunk(folder_of_finding(i), error.what());
     }
     progress.at(static_cast<double>(i + 1));
   }
@@ -104,13 +117,17 @@ int hunt(HuntArguments options, slam::MethodTable table) {
   fs::remove_all(work, error);
   if (result.runs.empty()) throw Interrupted(result.signal);
   write_findings(directory.staging(), result);
-  if (result.signal == 0 && options.shrink > 0) shrink_findings(directory.staging(), result, options);
-  write_file(directory.staging() + "/hunt.csv", hunt_csv(hunt, result));
-  write_file(directory.staging() + "/hunt.json", write_json(hunt_results(hunt, result)) + "\n");
+  write_tables(directory.staging(), hunt, result);
+  if (result.signal == 0 && options.shrink > 0) {
+    shrink_findings(directory.staging(), result, options);
+    if (result.signal != 0) write_tables(directory.staging(), hunt, result);  // they say that it was interrupted
+  }
   directory.commit();
   if (result.signal != 0)
     throw Interrupted(result.signal, options.out + " holds the first " + std::to_string(result.runs.size()) + " runs");
-  print(hunt_text(result, options.out) + "table: " + printable(options.out) + "/hunt.csv\n");
+  print(hunt_text(hunt, result, options.out) + "table: " + printable(options.out) + "/hunt.csv\n");
+  constexpr int scenario_failed = 4;
+  if (!any_walked(result)) return scenario_failed;
   return !result.findings.empty() && options.fail_on == "fault" ? 1 : 0;
 }
 
@@ -139,7 +156,7 @@ Command add_hunt(CommandLine& program, slam::MethodTable table) {
   line.footer(
       "Example: plumbline hunt slippery.yaml -o hunts/slippery\n"
       "         plumbline hunt corridors.yaml --max-runs 40 --shrink 2 -o hunts/corridors\n"
-      "Exit code 1 when a failure that is a method's fault was found");
+      "Exit code 1 when a failure that is a method's fault was found, 4 when no walk came to its end");
   return {line, [options, table] { return hunt(*options, table); }};
 }
 

@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/hunt/hunt_case.h"
+#include "scenarios/hunt/methods_alone.h"
 #include "scenarios/shrink/ingredients.h"
 #include "scenarios/shrink/trial.h"
 
@@ -46,19 +47,28 @@ std::vector<std::size_t> worst_of(const std::vector<HuntRun>& runs) {
 class HuntSearch {
  public:
   HuntSearch(const Hunt& hunt, const HuntOptions& options, slam::MethodTable table)
-      : hunt_(hunt), options_(options), cases_(hunt, options.work, table), stream_(hunt.file.seed, "scenario.hunt") {}
+      : hunt_(hunt),
+        options_(options),
+        try_all_(options.try_all ? options.try_all : in_processes(options.work, options.jobs)),
+        cases_(hunt, options.work, table),
+        stream_(hunt.file.seed, "scenario.hunt") {}
 
   void explore(std::size_t count) {
     std::size_t dimensions = 0;
     for (const HuntBase& base : hunt_.bases) dimensions = std::max(dimensions, base.dimensions(hunt_.file));
     std::vector<Point> points = latin_hypercube(count, dimensions, stream_);
-    std::vector<HuntRun> runs;
-    for (std::size_t i = 0; i < count; ++i) {
-      HuntRun run{i % hunt_.bases.size(), std::move(points[i]), seed_of_run(i), std::nullopt};
-      run.point.resize(hunt_.bases[run.base].dimensions(hunt_.file));
-      runs.push_back(std::move(run));
+    // In slices: what is done stays when this is interrupted.
+    const std::size_t slice = std::max(generation_size, static_cast<std::size_t>(std::max(options_.jobs, 1)));
+    while (runs_.size() < count) {
+      std::vector<HuntRun> runs;
+      for (std::size_t i = runs_.size(); i < std::min(count, runs_.size() + slice); ++i) {
+        HuntRun run{i % hunt_.bases.size(), std::move(points[i]), seed_of_run(i), std::nullopt};
+        run.point.resize(hunt_.bases[run.base].dimensions(hunt_.file));
+        note(run);
+        runs.push_back(std::move(run));
+      }
+      make(std::move(runs));
     }
-    make(std::move(runs));
   }
 
   void refine(std::size_t count) {
@@ -72,8 +82,13 @@ class HuntSearch {
         const std::size_t number = runs_.size() + i, parent = parents[i % parents.size()];
         const HuntRun& old = runs_[parent];
         const bool keeps_seed = stream_.uniform(number, seed_lane, 1) < same_noise;
-        runs.push_back({old.base, near_point(old.point, sigma, stream_, number),
-                        keeps_seed ? old.seed : seed_of_run(number), parent});
+        HuntRun run{old.base, near_point(old.point, sigma, stream_, number),
+                    keeps_seed ? old.seed : seed_of_run(number), parent};
+        if (!note(run)) {  // of few values the same may be drawn again
+          run.seed = seed_of_run(number);
+          note(run);
+        }
+        runs.push_back(std::move(run));
       }
       count -= runs.size();
       make(std::move(runs));
@@ -82,12 +97,25 @@ class HuntSearch {
 
   [[nodiscard]] std::vector<HuntRun> take() { return std::move(runs_); }
 
+  /// Makes the building of a run again, which was not kept.
+  void restore(HuntRun& run) const {
+    if (run.run->bytes) return;
+    HuntRun again = run;
+    cases_.make(again);
+    run.run->bytes = again.run->bytes;
+  }
+
  private:
   static constexpr std::uint32_t seed_lane = 1U << 20U;
 
   [[nodiscard]] std::uint64_t seed_of_run(std::size_t number) const {
     constexpr std::uint64_t seeds = 1'000'000'000;
     return stream_.bits(number, seed_lane, 0) % seeds;
+  }
+
+  /// Whether this run is another one than all before it.
+  bool note(const HuntRun& run) {
+    return known_.emplace(run.base, run.seed, cases_.values_at(hunt_.bases[run.base], run.point)).second;
   }
 
   void make(std::vector<HuntRun> runs) {
@@ -102,42 +130,37 @@ class HuntSearch {
     }
     const int done = static_cast<int>(runs_.size());
     int ended = 0;
-    const std::vector<Trial> trials = try_cases(cases, options_.work, options_.jobs, [&] {
+    const std::vector<Trial> trials = try_all_(cases, [&] {
       if (options_.progress) options_.progress(done + ++ended);
     });
     for (std::size_t k = 0; k < trials.size(); ++k) judge(runs[of_case[k]], trials[k]);
-    for (HuntRun& run : runs) runs_.push_back(std::move(run));
+    for (HuntRun& run : runs) {
+      if (run.run && hunt_.bases[run.base].family)
+        run.run->bytes.reset();  // one for each run: all would fill the memory
+      runs_.push_back(std::move(run));
+    }
   }
 
   void judge(HuntRun& run, const Trial& trial) const {
     run.why = trial.why;
-    if (trial.died)
-      run.outcomes = outcomes_alone(*run.run);
-    else if (trial.results && trial.why.empty())
+    run.begun = !trial.refused;
+    if (trial.signal != 0) {
+      MethodsAlone alone = methods_alone(*run.run, trial, try_all_);
+      run.outcomes = std::move(alone.outcomes);
+      run.alone = !run.outcomes.empty();
+      run.why = std::move(alone.why);
+    } else if (trial.results && trial.why.empty()) {
       run.outcomes = outcomes_of(*trial.results);
-    for (const MethodOutcome& outcome : run.outcomes) run.badness = std::max(run.badness, outcome.badness);
-  }
-
-  /// Of a run that ended the whole program: each method by itself, to see which one does.
-  [[nodiscard]] std::vector<MethodOutcome> outcomes_alone(const RunCase& run) const {
-    const std::vector<std::string> methods = methods_of_case(run);
-    if (methods.empty()) return {died("all", "the program died of a signal")};
-    std::vector<RunCase> alone;
-    for (const std::string& method : methods) alone.push_back(with_method(run, method));
-    const std::vector<Trial> trials = try_cases(alone, options_.work, options_.jobs);
-    std::vector<MethodOutcome> outcomes;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (trials[i].died) outcomes.push_back(died(methods[i], trials[i].why));
-      if (!trials[i].died && trials[i].results && trials[i].why.empty())
-        for (MethodOutcome& outcome : outcomes_of(*trials[i].results)) outcomes.push_back(std::move(outcome));
     }
-    return outcomes;
+    for (const MethodOutcome& outcome : run.outcomes) run.badness = std::max(run.badness, outcome.badness);
   }
 
   const Hunt& hunt_;
   HuntOptions options_;
+  TryCases try_all_;
   HuntCases cases_;
   Stream stream_;
+  std::set<std::tuple<std::size_t, std::uint64_t, DrawnValues>> known_;  ///< base, seed and values of each run
   std::vector<HuntRun> runs_;
 };
 
@@ -162,12 +185,22 @@ HuntResult run_hunt(const Hunt& hunt, const HuntOptions& options, slam::MethodTa
     result.signal = interrupted.signal();
   }
   result.runs = search.take();
-  const auto made = [](const HuntRun& run) { return !run.outcomes.empty(); };
-  if (result.signal == 0 && std::none_of(result.runs.begin(), result.runs.end(), made))
+  const auto begun = [](const HuntRun& run) { return run.begun; };
+  if (result.signal == 0 && std::none_of(result.runs.begin(), result.runs.end(), begun))
     throw InputError(hunt.bases[result.runs.front().base].mark,
                      "no run can be made; the first: " + result.runs.front().why);
   summarize(result);
+  for (const HuntFinding& finding : result.findings) search.restore(result.runs[finding.worst]);
   return result;
+}
+
+RunCase case_of(const HuntResult& result, const HuntFinding& finding) {
+  const HuntRun& run = result.runs[finding.worst];
+  return run.alone ? with_method(*run.run, finding.failure.method) : *run.run;
+}
+
+bool any_walked(const HuntResult& result) {
+  return std::any_of(result.runs.begin(), result.runs.end(), [](const HuntRun& run) { return !run.outcomes.empty(); });
 }
 
 void summarize(HuntResult& result) {

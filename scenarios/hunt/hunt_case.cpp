@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/hunt/hunt_case.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bim/formats/plan_yaml/plan_write.h"
 #include "bim/generators/generators.h"
 #include "scenarios/host/files.h"
 #include "scenarios/hunt/hunt.h"
+#include "scenarios/hunt/methods_alone.h"
 #include "scenarios/spec/generated_walk.h"
 #include "scenarios/spec/resolve.h"
 
@@ -53,15 +55,15 @@ void HuntCases::check_ends(const HuntBase& base) const {
     for (std::size_t i = 0; i < count; ++i) {
       Point point(dimensions, 0.0);
       point[first + k] = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-      check(base, std::move(point));
+      check(base, point);
     }
   }
 }
 
 /// A key that no scenario has, a value that it cannot have or an unknown method is a mistake, wherever it is drawn.
-void HuntCases::check(const HuntBase& base, Point point) const {
+void HuntCases::check(const HuntBase& base, const Point& point) const {
   HuntRun run;
-  run.point = std::move(point);
+  run.values = values_at(base, point);
   const std::size_t first = base.family ? base.family->options.size() : 0;
   if (base.family) {
     Scenario scenario;
@@ -73,10 +75,36 @@ void HuntCases::check(const HuntBase& base, Point point) const {
   const std::vector<std::string> methods = methods_of_case(made);
   const ProcessTable table = ScenarioTemplate(path, base.mark).methods(table_, base.mark);
   check_methods(methods, std::vector<Mark>(methods.size(), base.mark), table.table());
+  check_gated(methods, table.table());
+}
+
+/// A gate of a method that is not asked for would be refused in every run.
+void HuntCases::check_gated(const std::vector<std::string>& methods, slam::MethodTable table) const {
+  for (std::size_t i = 0; i < hunt_.file.gates.size(); ++i) {
+    const std::string& method = hunt_.file.gates[i].method;
+    const Mark& mark = hunt_.gate_marks[i];
+    if (std::find(methods.begin(), methods.end(), method) != methods.end()) continue;
+    check_methods({method}, {mark}, table);
+    if (!methods.empty())
+      throw InputError(mark, "the gate's method '" + method + "' is not one of the methods of the runs");
+  }
+}
+
+DrawnValues HuntCases::values_at(const HuntBase& base, const Point& point) const {
+  DrawnValues values;
+  const std::size_t first = base.family ? base.family->options.size() : 0;
+  for (std::size_t k = 0; k < first; ++k) {
+    const HuntRange& range = base.family->options[k];
+    values.emplace_back(base.name + " " + range.key, value_at(range, point[k]));
+  }
+  for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k)
+    values.emplace_back(hunt_.file.vary[k].key, value_at(hunt_.file.vary[k], point[first + k]));
+  return values;
 }
 
 void HuntCases::make(HuntRun& run) const {
   const HuntBase& base = hunt_.bases[run.base];
+  run.values = values_at(base, run.point);
   try {
     run.run = base.family ? generated(base, run)
                           : varied(templates_.at(base.scenario), bytes_.at(base.scenario), base, 0, run);
@@ -87,15 +115,11 @@ void HuntCases::make(HuntRun& run) const {
   }
 }
 
-RunCase HuntCases::generated(const HuntBase& base, HuntRun& run) const {
+RunCase HuntCases::generated(const HuntBase& base, const HuntRun& run) const {
   Tree options = Tree::map();
   options.mark = base.mark;
-  for (std::size_t k = 0; k < base.family->options.size(); ++k) {
-    const HuntRange& range = base.family->options[k];
-    const std::string value = value_at(range, run.point[k]);
-    options.set(range.key, value);
-    run.values.emplace_back(base.name + " " + range.key, value);
-  }
+  for (std::size_t k = 0; k < base.family->options.size(); ++k)
+    options.set(base.family->options[k].key, run.values[k].second);
   if (options.find("seed") == nullptr) options.set("seed", std::to_string(run.seed));
   const bim::GeneratedPlan plan = bim::generate(base.family->family, options);
   const std::string text = bim::write_plan(plan.plan), name = base.name + ".plan.yaml";
@@ -106,14 +130,10 @@ RunCase HuntCases::generated(const HuntBase& base, HuntRun& run) const {
 }
 
 RunCase HuntCases::varied(const ScenarioTemplate& scenario, Bytes bytes, const HuntBase& base, std::size_t first,
-                          HuntRun& run) const {
+                          const HuntRun& run) const {
   SweepVariant variant;
-  for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k) {
-    const HuntRange& range = hunt_.file.vary[k];
-    const std::string value = value_at(range, run.point[first + k]);
-    variant.set.push_back(range.key + "=" + value);
-    run.values.emplace_back(range.key, value);
-  }
+  for (std::size_t k = 0; k < hunt_.file.vary.size(); ++k)
+    variant.set.push_back(hunt_.file.vary[k].key + "=" + run.values[first + k].second);
   Tree tree = scenario.with(variant, nullptr, asked_of_all(hunt_.file), base.mark, table_);
   tree.set("seed", std::to_string(run.seed));
   if (!hunt_.file.gates.empty()) {
@@ -124,21 +144,6 @@ RunCase HuntCases::varied(const ScenarioTemplate& scenario, Bytes bytes, const H
   const std::string name = name_in_case(scenario.building());
   tree.set("building", name);
   return {tree, name, std::move(bytes)};
-}
-
-std::vector<std::string> methods_of_case(const RunCase& run) {
-  return read_scenario(write_yaml(run.scenario), "scenario.yaml").scenario.methods;
-}
-
-RunCase with_method(RunCase run, const std::string& method) {
-  Tree methods = Tree::list(), gates = Tree::list();
-  methods.push(method);
-  const Tree* all = run.scenario.find("gates");
-  if (all != nullptr && all->is_list())
-    for (const Tree& gate : all->as_list())
-      if (gate.find("method")->as_string() == method) gates.push(gate);
-  run.scenario.set("methods", methods).set("gates", gates);
-  return run;
 }
 
 }  // namespace plumbline::scenarios

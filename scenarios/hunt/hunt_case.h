@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenarios/hunt/hunt_file.h"
@@ -15,6 +16,8 @@
 namespace plumbline::scenarios {
 
 struct HuntRun;
+/// What was drawn, by key.
+using DrawnValues = std::vector<std::pair<std::string, std::string>>;
 
 /// Makes scenarios and buildings of a hunt from what was drawn.
 class HuntCases {
@@ -23,16 +26,18 @@ class HuntCases {
   /// no such key or method.
   HuntCases(const Hunt& hunt, const std::string& work, slam::MethodTable table);
 
+  [[nodiscard]] DrawnValues values_at(const HuntBase& base, const Point& point) const;
   /// Sets values and case of a run; where the draw gives none, as of sizes that no building has, why.
   void make(HuntRun& run) const;
 
  private:
   using Bytes = std::shared_ptr<const std::string>;
-  [[nodiscard]] RunCase generated(const HuntBase& base, HuntRun& run) const;
+  [[nodiscard]] RunCase generated(const HuntBase& base, const HuntRun& run) const;
   [[nodiscard]] RunCase varied(const ScenarioTemplate& scenario, Bytes bytes, const HuntBase& base, std::size_t first,
-                               HuntRun& run) const;
+                               const HuntRun& run) const;
   void check_ends(const HuntBase& base) const;
-  void check(const HuntBase& base, Point point) const;
+  void check(const HuntBase& base, const Point& point) const;
+  void check_gated(const std::vector<std::string>& methods, slam::MethodTable table) const;
 
   const Hunt& hunt_;
   std::string work_;
@@ -40,9 +45,5 @@ class HuntCases {
   std::map<std::string, ScenarioTemplate> templates_;  ///< by path
   std::map<std::string, Bytes> bytes_;                 ///< of their buildings
 };
-
-[[nodiscard]] std::vector<std::string> methods_of_case(const RunCase& run);
-/// With one method alone and its gates.
-[[nodiscard]] RunCase with_method(RunCase run, const std::string& method);
 
 }  // namespace plumbline::scenarios

@@ -87,6 +87,7 @@ struct HuntBase {
 struct Hunt {
   HuntFile file;
   std::vector<HuntBase> bases;
+  std::vector<Mark> gate_marks;  ///< where each gate stands
 };
 
 /// Reads a hunt and checks ranges, names of families and their options. Throws InputError at the place that is wrong.

@@ -22,10 +22,13 @@ is made from the reader itself.
   time, by what the method was told.
 - `lost` of SLAM is its fault where another method of the run, `truth` aside, had a pose for the whole walk, at most 0.5 m off. A failed
   gate of SLAM is where another one kept the same bound. So name several methods.
+- Where a signal ends the whole program, the walk with `truth` alone and each method by itself are run. Methods that end it alone have
+  `crashed`. Where none does, where the walk does so with `truth`, or where the program was killed (SIGKILL, as when memory is short),
+  the walk counts as failed, and `hunt.csv` says why.
 - Other failures are counted with the reason; `lucky` is one of them.
 - Failures are of one kind where method, verdict or gate, cause and the keys of the ingredients are the same. The worst of each kind
   is in `failures/NN`, the severest kind first: crashed, false_convergence, overconfident, lost, late, gates.
-- No result depends on `--jobs`. After an interruption the generations that are done stand in the tables; a hunt does not continue, it begins anew.
+- No result depends on `--jobs`. After an interruption the runs of the slices and generations that are done stand in the tables; a hunt does not continue, it begins anew.
 
 )md";
 

@@ -66,6 +66,19 @@ int failed_walks(const HuntResult& result) {
       std::count_if(result.runs.begin(), result.runs.end(), [](const HuntRun& run) { return run.outcomes.empty(); }));
 }
 
+/// A base of which no walk began is as good as not named.
+std::string bases_without_run(const Hunt& hunt, const HuntResult& result) {
+  std::string text;
+  for (std::size_t base = 0; base < hunt.bases.size(); ++base) {
+    const auto drawn = [&](const HuntRun& run) { return run.base == base; };
+    const auto begun = [&](const HuntRun& run) { return run.base == base && run.begun; };
+    const auto first = std::find_if(result.runs.begin(), result.runs.end(), drawn);
+    if (first == result.runs.end() || std::any_of(result.runs.begin(), result.runs.end(), begun)) continue;
+    text += "no draw of " + hunt.bases[base].name + " made a run; the first: " + first->why + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string folder_of_finding(std::size_t i) {
@@ -122,7 +135,7 @@ Tree hunt_results(const Hunt& hunt, const HuntResult& result) {
   return tree.set("findings", std::move(findings)).set("not_the_methods_fault", std::move(excused));
 }
 
-std::string hunt_text(const HuntResult& result, const std::string& out) {
+std::string hunt_text(const Hunt& hunt, const HuntResult& result, const std::string& out) {
   std::string text;
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
     const HuntFinding& finding = result.findings[i];
@@ -138,6 +151,7 @@ std::string hunt_text(const HuntResult& result, const std::string& out) {
   for (const auto& [why, count] : result.excused) excused += count;
   if (excused > 0) text += "not the method's fault: " + std::to_string(excused) + " failures\n";
   for (const auto& [why, count] : result.excused) text += "  " + std::to_string(count) + "  " + why + "\n";
+  text += bases_without_run(hunt, result);
   const int walks = failed_walks(result);
   if (walks > 0) text += std::to_string(walks) + " runs could not be made or walked to the end; hunt.csv says why\n";
   return text + std::to_string(result.runs.size()) + " runs, " + std::to_string(result.findings.size()) +

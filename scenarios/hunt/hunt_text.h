@@ -14,8 +14,9 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::string hunt_csv(const Hunt& hunt, const HuntResult& result);
 /// hunt.json: the findings.
 [[nodiscard]] Tree hunt_results(const Hunt& hunt, const HuntResult& result);
-/// Findings with the commands that run and shrink them, and what was no method's fault; lines. `out`: the hunt's
+/// Findings with the commands that run and shrink them, what was no method's fault, and bases of which no walk began;
+/// lines. `out`: the hunt's
 /// folder.
-[[nodiscard]] std::string hunt_text(const HuntResult& result, const std::string& out);
+[[nodiscard]] std::string hunt_text(const Hunt& hunt, const HuntResult& result, const std::string& out);
 
 }  // namespace plumbline::scenarios

@@ -31,10 +31,11 @@ double folded(double u) {
   return std::min(turned, below_one);
 }
 
-std::string rounded(double value) {
+/// In five digits, but a bound as it is where these pass it.
+std::string rounded(double value, double least, double greatest) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.4e", value);
-  return format_number(std::strtod(text.data(), nullptr));
+  return format_number(std::clamp(std::strtod(text.data(), nullptr), least, greatest));
 }
 
 }  // namespace
@@ -65,14 +66,14 @@ std::string value_at(const HuntRange& range, double u) {
   }
   const double least = *range.min, greatest = *range.max;
   if (range.whole) {
-    const double from = range.log ? std::log(least) : least, to = range.log ? std::log(greatest + 1.0) : greatest + 1.0;
+    const double first = std::ceil(least), last = std::floor(greatest);
+    const double from = range.log ? std::log(first) : first, to = range.log ? std::log(last + 1.0) : last + 1.0;
     const double value = from + u * (to - from);
     // All digits: a scenario takes 1e+05 for no whole number.
-    return std::to_string(std::llround(std::clamp(std::floor(range.log ? std::exp(value) : value), std::ceil(least),
-                                                  std::max(std::ceil(least), std::floor(greatest)))));
+    return std::to_string(std::llround(std::clamp(std::floor(range.log ? std::exp(value) : value), first, last)));
   }
   const double value = range.log ? least * std::pow(greatest / least, u) : least + u * (greatest - least);
-  return rounded(std::clamp(value, least, greatest));
+  return rounded(value, least, greatest);
 }
 
 }  // namespace plumbline::scenarios

@@ -73,17 +73,20 @@ void drop_unused_materials(Tree& plan) {
   plan.set("materials", Tree(std::move(materials)));
 }
 
-/// What cannot be without the storeys or walls that go.
-void drop_dependents(Tree& plan, const std::string& kind, Ids gone) {
-  if (kind == "storeys") {
-    const Ids storeys = gone;
-    for (const char* stands : {"walls", "rooms", "columns", "clutter"})
-      gone.merge(drop_where(plan, stands, {"storey"}, storeys));
-    gone.merge(drop_where(plan, "stairs", {"from", "to"}, storeys));
-  }
-  gone.merge(drop_where(plan, "openings", {"wall"}, gone));
-  forget_walls(plan, gone);
-  (void)drop_where(plan, "deviations", {"wall", "opening", "storey", "host"}, gone);
+/// What cannot be without the storeys, walls or openings that go. Ids tell elements of one kind apart, not those of
+/// two.
+void drop_dependents(Tree& plan, const std::string& kind, const Ids& gone) {
+  const auto of_kind = [&](const char* which) { return kind == which ? gone : Ids(); };
+  const Ids storeys = of_kind("storeys");
+  Ids walls = of_kind("walls"), openings = of_kind("openings");
+  walls.merge(drop_where(plan, "walls", {"storey"}, storeys));
+  for (const char* stands : {"rooms", "columns", "clutter"}) (void)drop_where(plan, stands, {"storey"}, storeys);
+  (void)drop_where(plan, "stairs", {"from", "to"}, storeys);
+  openings.merge(drop_where(plan, "openings", {"wall"}, walls));
+  forget_walls(plan, walls);
+  (void)drop_where(plan, "deviations", {"storey"}, storeys);
+  (void)drop_where(plan, "deviations", {"wall"}, walls);
+  (void)drop_where(plan, "deviations", {"opening"}, openings);
 }
 
 }  // namespace
@@ -120,7 +123,7 @@ Tree with_parts(const Tree& plan, const std::string& kind, const Kept& kept) {
   }
   Tree fewer = plan;
   fewer.set(kind, Tree(std::move(left)));
-  drop_dependents(fewer, kind, std::move(gone));
+  drop_dependents(fewer, kind, gone);
   erase_at(fewer, "symmetry");
   drop_unused_materials(fewer);
   return fewer;

@@ -8,18 +8,13 @@ namespace plumbline::scenarios {
 
 namespace {
 
-/// What is left without the one or the other of `chunks` chunks of equal size, from chunk `first` on and around.
-std::vector<Kept> complements(const Kept& parts, std::size_t chunks, std::size_t first) {
-  std::vector<Kept> candidates;
-  for (std::size_t i = 0; i < chunks; ++i) {
-    const std::size_t chunk = (first + i) % chunks;
-    const auto begin = static_cast<std::ptrdiff_t>(chunk * parts.size() / chunks);
-    const auto end = static_cast<std::ptrdiff_t>((chunk + 1) * parts.size() / chunks);
-    Kept rest(parts.begin(), parts.begin() + begin);
-    rest.insert(rest.end(), parts.begin() + end, parts.end());
-    candidates.push_back(std::move(rest));
-  }
-  return candidates;
+/// What is left without one of `chunks` chunks of equal size.
+Kept without_chunk(const Kept& parts, std::size_t chunks, std::size_t chunk) {
+  const auto begin = static_cast<std::ptrdiff_t>(chunk * parts.size() / chunks);
+  const auto end = static_cast<std::ptrdiff_t>((chunk + 1) * parts.size() / chunks);
+  Kept rest(parts.begin(), parts.begin() + begin);
+  rest.insert(rest.end(), parts.begin() + end, parts.end());
+  return rest;
 }
 
 }  // namespace
@@ -27,15 +22,20 @@ std::vector<Kept> complements(const Kept& parts, std::size_t chunks, std::size_t
 Kept minimize(std::size_t count, const FirstFailing& first_failing) {
   Kept parts(count);
   std::iota(parts.begin(), parts.end(), std::size_t{0});
-  if (count == 0 || first_failing({Kept{}})) return {};
-  std::size_t chunks = 2, next = 0;
-  while (parts.size() > 1) {
+  if (count == 0) return {};
+  const FirstFailure none = first_failing({1, [](std::size_t) { return Kept(); }});
+  if (none.index) return {};
+  bool tries_left = !none.no_try_left;
+  std::size_t chunks = 2, next = 0;  // chunk `next` is left out first
+  while (parts.size() > 1 && tries_left) {
     chunks = std::min(chunks, parts.size());
-    std::vector<Kept> candidates = complements(parts, chunks, next);
-    if (const std::optional<std::size_t> failing = first_failing(candidates)) {
-      parts = std::move(candidates[*failing]);
+    const auto at = [&](std::size_t i) { return without_chunk(parts, chunks, (next + i) % chunks); };
+    const FirstFailure first = first_failing({chunks, at});
+    tries_left = !first.no_try_left;
+    if (first.index) {
+      parts = at(*first.index);
       // Those before it were needed with more around them, so they come last.
-      next = chunks > 2 ? (next + *failing) % chunks : 0;
+      next = chunks > 2 ? (next + *first.index) % chunks : 0;
       chunks = std::max<std::size_t>(chunks - 1, 2);
     } else if (chunks == parts.size()) {
       break;

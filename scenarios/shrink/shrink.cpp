@@ -47,16 +47,20 @@ RunCase alone(RunCase run, const FailureSignature& failure) {
 }
 
 /// The run fails again at all, the method alone if that will do.
-void repeat(ShrinkSearch& search, const FailureSignature& failure, const std::string& named) {
+void repeat(ShrinkSearch& search, const FailureSignature& failure, const ShrinkOptions& options) {
   std::vector<ShrinkCandidate> candidates;
   const RunCase whole = search.best();
   if (length_at(whole.scenario, "methods") > 1)
     candidates.push_back({"without the other methods", [&] { return alone(whole, failure); }});
   candidates.push_back({"nothing, to see it fail again", [&] { return whole; }});
   if (search.first_failing(candidates)) return;
-  if (search.is_exhausted()) return;
-  throw InputError({named, 0, 0}, "does not fail the same way when it is run again (" + search.steps().back().why +
-                                      "); another build of the program may have made it");
+  if (search.is_exhausted())
+    throw InputError({options.named, 0, 0}, "'" + failure.method + "' alone does not fail the same way (" +
+                                                search.steps().back().why + "), and no run is left to see whether " +
+                                                "all methods together do; --max-runs 2 or more");
+  throw InputError({options.named, 0, 0}, "does not fail the same way when it is run again (" +
+                                              search.steps().back().why +
+                                              "); another build of the program may have made it");
 }
 
 double duration_of(const ShrinkSearch& search) {
@@ -158,6 +162,7 @@ bool shorten_route(ShrinkSearch& search) {
 bool take_building_apart(ShrinkSearch& search) {
   bool any = false;
   for (const std::string& kind : kinds_of_parts()) {
+    if (search.is_exhausted()) break;
     const std::optional<Tree> plan = plan_tree(*search.best().bytes, search.best().building);
     if (!plan || parts_in(*plan, kind) == 0) continue;
     std::vector<std::string> names;
@@ -200,11 +205,15 @@ CaseSize size_of(const RunCase& run, const Tree& results) {
 }
 
 /// Which ingredients of the whole run the smallest one has. Of a preset that it has, its effects are named as well.
-void name_ingredients(const RunCase& whole, Shrunk& shrunk) {
+void name_ingredients(const RunCase& whole, const ShrinkSearch& search, Shrunk& shrunk) {
   const auto add = [&](const std::vector<Ingredient>& ingredients) {
-    for (const Ingredient& ingredient : ingredients)
-      (is_left(ingredient, whole.scenario, shrunk.best.scenario) ? shrunk.needed : shrunk.not_needed)
-          .push_back(ingredient.name);
+    for (const Ingredient& ingredient : ingredients) {
+      const bool left = is_left(ingredient, whole.scenario, shrunk.best.scenario);
+      std::vector<std::string>& names = !left                               ? shrunk.not_needed
+                                        : search.is_needed(ingredient.name) ? shrunk.needed
+                                                                            : shrunk.not_tried;
+      names.push_back(ingredient.name);
+    }
   };
   add(all_ingredients(whole));
   std::vector<Ingredient> effects = effects_of(whole.scenario);
@@ -223,7 +232,7 @@ Shrunk shrink(const RunCase& whole, const Tree& results, const FailureSignature&
   ShrinkSearch search(whole, results, failure, options);
   Shrunk shrunk;
   try {
-    repeat(search, failure, options.named);
+    repeat(search, failure, options);
     make_smaller(search, failure, options.keep);
     if (search.is_exhausted()) shrunk.end = ShrinkEnd::max_runs;
   } catch (const Interrupted& interrupted) {
@@ -236,7 +245,7 @@ Shrunk shrink(const RunCase& whole, const Tree& results, const FailureSignature&
   shrunk.after = size_of(search.best(), search.results());
   shrunk.steps = search.steps();
   shrunk.runs = search.runs();
-  name_ingredients(whole, shrunk);
+  name_ingredients(whole, search, shrunk);
   return shrunk;
 }
 

@@ -11,6 +11,7 @@
 #include "bim/config/tree.h"
 #include "scenarios/shrink/failure_signature.h"
 #include "scenarios/shrink/run_case.h"
+#include "scenarios/shrink/trial.h"
 
 namespace plumbline::scenarios {
 
@@ -24,6 +25,7 @@ struct ShrinkOptions {
   int jobs = 1;                                 ///< decides about time alone
   std::vector<std::string> keep;                ///< stages that are left out
   std::function<void(int runs)> progress = {};  ///< called after each run that counts
+  TryCases try_all = {};                        ///< in place of in_processes()
 };
 
 /// Something that was tried.
@@ -52,7 +54,8 @@ struct Shrunk {
   FailureSignature failure;
   RunCase best;
   CaseSize before, after;
-  std::vector<std::string> needed, not_needed;  ///< ingredients
+  /// Ingredients: those that were tried alone and must stay, those that went, and those that were not tried.
+  std::vector<std::string> needed, not_needed, not_tried;
   std::vector<ShrinkStep> steps;
   int runs = 0;
   ShrinkEnd end = ShrinkEnd::smallest;
@@ -62,7 +65,7 @@ struct Shrunk {
 /// Searches for the smallest run that fails the same way: the failing method alone; a shorter walk with time to spare;
 /// fewer ingredients and a shorter route, until none of these can go alone; no time to spare; fewer elements of a plan,
 /// until none of these can go alone. `results`: results.json of the run that `whole` makes. Throws InputError where it
-/// does not fail this way when it is run again.
+/// does not fail this way when it is run again, as far as `max_runs` shows.
 [[nodiscard]] Shrunk shrink(const RunCase& whole, const Tree& results, const FailureSignature& failure,
                             const ShrinkOptions& options);
 

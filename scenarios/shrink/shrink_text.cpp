@@ -43,6 +43,7 @@ Tree to_results(const Shrunk& shrunk) {
   tree.set("end", EnumNames<ShrinkEnd>::names[static_cast<std::size_t>(shrunk.end)]).set("runs", shrunk.runs);
   tree.set("before", size_tree(shrunk.before)).set("after", size_tree(shrunk.after));
   tree.set("needs", list_tree(shrunk.needed)).set("does_not_need", list_tree(shrunk.not_needed));
+  tree.set("not_tried", list_tree(shrunk.not_tried));
   Tree steps = Tree::list();
   for (const ShrinkStep& step : shrunk.steps) {
     Tree entry = Tree::map();
@@ -66,6 +67,7 @@ std::string shrink_text(const Shrunk& shrunk) {
   else
     text += "building   as it was: only a plan (plan: 1) can be taken apart\n";
   text += "needs: " + joined(shrunk.needed) + "\ndoes not need: " + joined(shrunk.not_needed) + "\n";
+  if (!shrunk.not_tried.empty()) text += "not tried alone: " + joined(shrunk.not_tried) + "\n";
   text += std::to_string(shrunk.runs) + " runs";
   if (shrunk.end == ShrinkEnd::max_runs) return text + "; more may go with more of them: --max-runs\n";
   if (shrunk.end == ShrinkEnd::interrupted) return text + "; interrupted, more may go\n";

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int environment_failed = 3, first_signal = 128;
+constexpr int bad_input = 2, environment_failed = 3, first_signal = 128;
 
 std::string folder_of(const std::string& folder, std::size_t i) { return folder + "/trial" + std::to_string(i); }
 
@@ -36,9 +36,10 @@ Trial trial_of(const ChildEnd& end, const std::string& folder) {
   Trial trial;
   const std::string file = folder + "/scenario/results.json";
   if (fs::exists(file)) trial.results = read_json(read_text_file(file), file);
-  trial.died = end.code > first_signal;
-  if (trial.died) trial.why = "the program died of signal " + std::to_string(end.code - first_signal);
-  if (end.code != 0 && !trial.died) trial.why = said(end, folder);
+  trial.signal = std::max(0, end.code - first_signal);
+  trial.refused = end.code == bad_input;
+  if (trial.signal != 0) trial.why = "the program died of signal " + std::to_string(trial.signal);
+  if (end.code != 0 && trial.signal == 0) trial.why = said(end, folder);
   return trial;
 }
 
@@ -63,6 +64,12 @@ std::vector<Trial> try_cases(const std::vector<RunCase>& cases, const std::strin
         if (ended) ended();
       });
   return trials;
+}
+
+TryCases in_processes(const std::string& folder, int jobs) {
+  return [folder, jobs](const std::vector<RunCase>& cases, const std::function<void()>& ended) {
+    return try_cases(cases, folder, jobs, ended);
+  };
 }
 
 void run_program_once(const std::vector<std::string>& arguments, const std::vector<int>& allowed) {

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "bim/config/tree.h"
@@ -70,6 +71,30 @@ TEST_F(HuntSlips, ShrinksWhatItFindsWhenAsked) {
   EXPECT_EQ(json.find("runs")->as_int(), 3);
   EXPECT_EQ(json.find("after")->find("methods")->as_int(), 1);
   EXPECT_EQ(plumbline({"hunt", *folder_ / "hunt.yaml", "-o", *folder_ / "none", "--shrink-runs", "3"}).code, 2);
+}
+
+TEST_F(HuntSlips, AFindingThatCannotBeShrunkIsNotedAndTheHuntStays) {
+  const fs::path tests = fs::path(std::getenv("PLUMBLINE_BINARY")).parent_path() / "tests";
+  write_file(*folder_ / "once.sh", "test -e '" + (*folder_ / "was_run") + "' && exec " +
+                                       (tests / "process_vgicp").string() + "\ntouch '" + (*folder_ / "was_run") +
+                                       "'\nexit 1\n");
+  write_file(*folder_ / "once.yaml", read_file(*folder_ / "walk.yaml") + "processes: [{name: once, command: [sh, " +
+                                         (*folder_ / "once.sh") + "]}]\n");
+  write_file(*folder_ / "crash.yaml", "hunt: 1\nscenarios: [once.yaml]\nruns: 1\nmethods: [once]\n");
+  const Outcome crashed = hunt("crash.yaml", *folder_ / "crashed", {"--shrink", "1"});
+  EXPECT_EQ(crashed.code, 1) << crashed.err;
+  EXPECT_NE(crashed.err.find("warning: failures/01 is not shrunk: plumbline shrink ended with 2"), std::string::npos)
+      << crashed.err;
+  EXPECT_TRUE(fs::exists(*folder_ / "crashed/hunt.csv"));
+  EXPECT_TRUE(fs::exists(*folder_ / "crashed/failures/01/scenario.yaml"));
+}
+
+TEST_F(HuntSlips, WhereEveryWalkFailsTheTablesSayWhy) {
+  write_file(*folder_ / "pushed.yaml", read_file(*folder_ / "walk.yaml") + "pushes: {max_n: 1000, every_s: 1}\n");
+  write_file(*folder_ / "falls.yaml", "hunt: 1\nscenarios: [pushed.yaml]\nruns: 1\nmethods: [odometry]\n");
+  const Outcome falls = hunt("falls.yaml", *folder_ / "falls");
+  EXPECT_EQ(falls.code, 4) << falls.err;
+  EXPECT_NE(read_file(*folder_ / "falls/hunt.csv").find("the robot fell"), std::string::npos);
 }
 
 TEST_F(HuntSlips, ABoundThatNobodyKeepsIsNobodysFault) {

@@ -78,9 +78,21 @@ TEST_F(HuntFiles, WhatIsWrongIsRefusedWhereItStands) {
   expect(start + "vary: [{key: prior.jaw, values: [known]}]\n", "did you mean 'yaw'?");
   expect(start + "vary: [{key: speed_mps, min: 0.5, max: 50}]\n", "speed_mps");
   expect(start + "vary: [{key: prior.yaw, values: [known, unknwon, unknown]}]\n", "did you mean 'unknown'?");
-  expect(start + "vary: [{key: seed, min: 1, max: 2}]\n", "seed");
+  expect(start + "vary: [{key: seed, min: 1, max: 2}]\n", "a hunt gives every run its seed");
+  expect(start + "vary: [{key: building, values: [a.ifc]}]\n", "a hunt's runs are in their scenario's building");
+  expect(start + "methods: [vgicp]\nvary: [{key: methods, values: ['[odometry]']}]\n",
+         "the hunt sets 'methods' itself");
+  expect(start + "vary: [{key: route.loop, min: 1.2, max: 1.8, whole: true}]\n", "no whole number lies between");
   expect(start + "methods: [vgipc]\n", "did you mean 'vgicp'?");
   expect(start + "gates: [{metric: ate, method: vgicp, max: 1}]\n", "unknown metric 'ate'");
+  const std::string gate = "gates: [{metric: ate_aligned_rmse_m, method: ";
+  expect(start + "methods: [vgicp]\n" + gate + "vgicpp, max: 1}]\n", "hunt.yaml:4:9: unknown method 'vgicpp'");
+  expect(start + "methods: [vgicp]\n" + gate + "odometry, max: 1}]\n", "'odometry' is not one of the methods");
+  const std::string corridor = "hunt: 1\ngenerate: [{family: corridor, options: [{key: ";
+  expect(corridor + "epsilon_m, min: 0.15, max: 0.6}]}]\n", "hunt.yaml:2:41: 'epsilon_m': 0.6 is out of range");
+  expect(corridor + "rooms, min: 1, max: 4}]}]\n", "out of range");
+  expect(corridor + "rooms, min: 3.2, max: 3.8}]}]\n", "no whole number lies between");
+  expect(corridor + "feature, values: [column, pillar]}]}]\n", "pillar");
   expect("hunt: 1\ngenerate: [{family: coridor}]\n", "did you mean 'corridor'?");
   expect("hunt: 1\ngenerate: [{family: corridor, options: [{key: room, min: 3, max: 4}]}]\n", "did you mean 'rooms'?");
 }

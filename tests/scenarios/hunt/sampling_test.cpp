@@ -82,6 +82,18 @@ TEST(HuntValue, WholeNumbersHaveAllTheirDigits) {
   EXPECT_EQ(value_at(whole, 0.5), "100000");
 }
 
+TEST(HuntValue, NoValuePassesABound) {
+  EXPECT_EQ(value_at(range(0.123456, 0.123456), 0.5), "0.123456");
+  EXPECT_EQ(value_at(range(0.123444, 1), 0.0), "0.123444");
+  EXPECT_EQ(value_at(range(0.1, 0.987656), 1.0 - 1e-12), "0.987656");
+  HuntRange whole = range(1.2, 3.8);
+  whole.whole = true;
+  EXPECT_EQ(value_at(whole, 0.0), "2");
+  EXPECT_EQ(value_at(whole, 0.49), "2");
+  EXPECT_EQ(value_at(whole, 0.51), "3");
+  EXPECT_EQ(value_at(whole, 1.0 - 1e-12), "3");
+}
+
 TEST(HuntValue, WholeNumbersAreEquallyLikely) {
   for (const bool log : {false, true}) {
     HuntRange whole = range(3, 6);

@@ -70,6 +70,28 @@ TEST(BuildingParts, AStoreyGoesWithAllThatStandsOnIt) {
   EXPECT_TRUE(ground.find("materials")->as_list().empty());
 }
 
+TEST(BuildingParts, ElementsOfOneIdButOtherKindsStay) {
+  const Tree plan = read_yaml(
+      "plan: 1\nstoreys: [{id: a}]\n"
+      "walls: [{id: a, storey: a, a: [0, 0], b: [5, 0]}, {id: b, storey: a, a: [0, 0], b: [0, 5]}]\n"
+      "openings: [{id: a, wall: a, s_m: 2, width_m: 1, height_m: 2}, {id: b, wall: b, s_m: 2, width_m: 1, height_m: "
+      "2}]\n"
+      "rooms: [{id: a, storey: a, walls: [a, b]}]\n"
+      "columns: [{id: a, storey: a, at: [1, 1], size: [0.2, 0.2]}]\n"
+      "deviations: [{op: remove_opening, opening: a}, {op: move_wall, wall: a, by: [0, 1]}, "
+      "{op: move_wall, wall: b, by: [0, 1]}]\n",
+      "same.plan.yaml");
+  for (const char* kind : {"rooms", "columns"})
+    EXPECT_EQ(parts_in(with_parts(plan, kind, {})), parts_in(plan) - 1) << kind;
+  const Tree without_opening = with_parts(plan, "openings", {1});
+  EXPECT_EQ(parts_in(without_opening, "deviations"), 2U) << write_yaml(without_opening);
+  EXPECT_EQ(without_opening.find("rooms")->as_list().front().find("walls")->as_list().size(), 2U);
+  const Tree without_wall = with_parts(plan, "walls", {1});
+  EXPECT_EQ(parts_in(without_wall, "openings"), 1U) << write_yaml(without_wall);
+  EXPECT_EQ(parts_in(without_wall, "deviations"), 1U) << write_yaml(without_wall);
+  EXPECT_EQ(parts_in(without_wall, "columns"), 1U) << write_yaml(without_wall);
+}
+
 TEST(BuildingParts, OfThoseThatMakeNoPlanTheTextIsRefused) {
   EXPECT_NO_THROW((void)plan_text(house()));
   const std::string error = input_error([] { (void)plan_text(with_parts(house(), "storeys", {})); });

@@ -18,15 +18,17 @@ struct Asked {
   Fails fails;
   std::vector<Kept> tries = {};
   std::size_t most = 1'000'000;
+  std::size_t questions = 0;
 
   [[nodiscard]] FirstFailing oracle() {
-    return [this](const std::vector<Kept>& candidates) -> std::optional<std::size_t> {
-      for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (tries.size() >= most) return std::nullopt;
-        tries.push_back(candidates[i]);
-        if (fails(candidates[i])) return i;
+    return [this](const KeptCandidates& candidates) -> FirstFailure {
+      ++questions;
+      for (std::size_t i = 0; i < candidates.count; ++i) {
+        if (tries.size() >= most) return {std::nullopt, true};
+        tries.push_back(candidates.at(i));
+        if (fails(tries.back())) return {i};
       }
-      return std::nullopt;
+      return {};
     };
   }
 };
@@ -117,6 +119,12 @@ TEST(Ddmin, WithoutTriesLeftItEndsWithWhatFailsSoFar) {
     EXPECT_TRUE(has_all(minimize(50, asked.oracle()), needed)) << most;
     EXPECT_LE(asked.tries.size(), most);
   }
+}
+
+TEST(Ddmin, WithoutTriesLeftItAsksNoMore) {
+  Asked asked{[](const Kept&) { return false; }, {}, 1};
+  EXPECT_EQ(minimize(1000, asked.oracle()).size(), 1000U);
+  EXPECT_EQ(asked.questions, 2U);
 }
 
 TEST(Ddmin, NothingToLeaveOutAsksNothing) {
