@@ -108,7 +108,9 @@ class TreeBuilder : public YAML::EventHandler {
 
 bool needs_quotes(const std::string& text) {
   if (text.empty() || text == "null" || text == "~") return true;
-  if (text.front() == ' ' || text.back() == ' ' || text.front() == '-' || text.front() == '?') return true;
+  const bool is_negative = text.size() > 1 && text[0] == '-' && text[1] >= '0' && text[1] <= '9';
+  if (text.front() == '-' && !is_negative) return true;
+  if (text.front() == ' ' || text.back() == ' ' || text.front() == '?') return true;
   return text.find_first_of(":#,[]{}&*!|>'\"%@`\n\t\\") != std::string::npos;
 }
 

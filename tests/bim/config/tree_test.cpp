@@ -62,6 +62,12 @@ TEST(Tree, YamlRoundTripsAsText) {
   EXPECT_EQ(write_yaml(read_yaml(text, "f")), text);
 }
 
+// A scenario that is read and written again, as by shrink, keeps its numbers.
+TEST(Yaml, NegativeNumbersStayPlainAndOtherDashesDoNot) {
+  const std::string text = "at: [-2.525, 4.875]\nname: \"-a\"\nlist: \"-\"\n";
+  EXPECT_EQ(write_yaml(read_yaml(text, "f")), text);
+}
+
 TEST(Tree, NumbersRoundTrip) {
   const Stream stream(1, "bim.generate");
   for (std::uint64_t i = 0; i < 1000; ++i) {
