@@ -8,7 +8,7 @@
 
 #include "bim/config/visit.h"
 #include "slam/localization/range_bias.h"
-#include "slam/localization/wall_variance.h"
+#include "slam/localization/wall_tolerance.h"
 #include "slam/plan_map/localization_scan.h"
 #include "slam/plan_map/plan_index.h"
 #include "slam/planes/plane_detector.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slam/localization/wall_variance.h"
+#include "slam/localization/wall_tolerance.h"
 
 #include <gtest/gtest.h>
 
