@@ -12,11 +12,10 @@
 #include "scenarios/hunt/hunt_schema.h"
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/metrics/result_words.h"
-#include "scenarios/spec/method_names.h"
 #include "scenarios/spec/scenario_schema.h"
 #include "scenarios/sweep/sweep_schema.h"
 #include "slam/io/recordings/recording_info.h"
-#include "slam/methods.h"
+#include "tests/docs/methods_page.h"
 
 namespace plumbline::docs {
 
@@ -46,47 +45,6 @@ a gait add nothing; `score --reference` knows no horizontal and takes them in sp
     words.add({word.key.starts_with("localization.") ? markdown_code(word.key) : std::string(word.key),
                markdown_code(word.word), std::string(word.doc)});
   return page + words.text();
-}
-
-std::string overview_of_methods() {
-  MarkdownTable table({"method", "what it is", "plan", "odometry", "default"});
-  for (const slam::MethodRow& row : slam::methods())
-    table.add({row.config_schema ? "[`" + std::string(row.name) + "`](#" + std::string(row.name) + ")"
-                                 : markdown_code(row.name),
-               std::string(row.summary), row.needs_plan ? "needed" : "",
-               row.needs_odometry  ? "needed"
-               : row.uses_odometry ? "optional"
-                                   : "not used",
-               row.standard ? "yes" : ""});
-  table.add({markdown_code(scenarios::truth_method), "the true poses; its errors are 0, which checks the scores", "",
-             "", ""});
-  return table.text();
-}
-
-std::string method_section(const slam::MethodRow& row) {
-  const std::vector<SchemaField> fields = row.config_schema().front().fields;
-  const std::vector<SchemaField> basic = basic_fields(fields);
-  std::string text = "\n## " + std::string(row.name) + "\n\n" + std::string(row.summary) + ".\n\n";
-  if (basic.size() < fields.size()) text += schema_table(basic) + "\n";
-  return text + "<details><summary>All " + std::to_string(fields.size()) + " keys</summary>\n\n" +
-         schema_table(fields) + "\n</details>\n";
-}
-
-std::string methods_page() {
-  std::string page = R"md(# Methods
-
-A scenario, `run --method` and `estimate --method` name methods. Those marked as default run where none is named.
-Localization needs the plan of the building. Where odometry is optional and absent, the motion prior is
-constant velocity. `not used`: the method reads LiDAR alone.
-
-)md";
-  page += overview_of_methods() + R"md(
-`plumbline methods --config METHOD` prints the basic keys of a method at their defaults, and `--all` every key. Saved as
-a file and changed, `--config FILE` of `estimate` takes it. Each section below lists the basic keys first.
-)md";
-  for (const slam::MethodRow& row : slam::methods())
-    if (row.config_schema) page += method_section(row);
-  return page;
 }
 
 std::string warnings_page() {
