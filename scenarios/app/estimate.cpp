@@ -165,8 +165,9 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
   input.config = make_config(options, row);
   input.has_odometry = recording.has_odometry();  // MethodRunner keeps it back where LiDAR alone is asked for
   if (row.needs_odometry && !input.has_odometry)
-    throw InputError({options.input.recording, 0, 0}, "holds no odometry, which method '" + options.method +
-                                                          "' needs; vgicp and s_graphs_plus do without");
+    throw InputError({options.input.recording, 0, 0},
+                     "holds no odometry, which method '" + options.method +
+                         "' needs; --odometry gives it, and vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), seed_name(row));
   input.calibration = slam::calibration_of(info);
   const LoadedPlan loaded = load_plan(options, row, info);
@@ -326,6 +327,12 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
   line.option("--points-topic", options->input.topics.points, "of a bag [the first PointCloud2 or Livox CustomMsg]");
   line.option("--odometry-topic", options->input.topics.odometry, "of a bag [the first Odometry]");
   line.option("--imu-topic", options->input.topics.imu, "of a bag [the first Imu]");
+  line.option("--odometry", options->input.motion.odometry,
+              "poses of the robot, of a recording without odometry: TUM, EuRoC, or KITTI's, one for each scan "
+              "[odometry.tum beside clouds]");
+  line.option(
+      "--imu", options->input.motion.imu,
+      "imu.csv of a recording without an IMU, or EuRoC's data.csv, in the robot's frame [imu.csv beside clouds]");
   line.option("--method", options->method, "one of plumbline methods, or NAME=COMMAND: a process of your own")
       .takes("METHOD")
       .required();

@@ -79,12 +79,14 @@ std::unique_ptr<slam::Recording> open_any_recording(const RecordingArguments& ar
     info = slam::read_recording_info(read_text_file(arguments.description), arguments.description);
   const slam::RecordingInfo* given = info ? &*info : nullptr;
   check_kind(arguments.recording);
-  if (slam::is_bag(arguments.recording)) return slam::open_bag(arguments.recording, arguments.topics, given);
+  if (slam::is_bag(arguments.recording))
+    return with_motion(slam::open_bag(arguments.recording, arguments.topics, given), arguments.motion);
   const std::string inner = arguments.recording + "/" + std::string(recording_folder);
   const std::string folder = std::filesystem::is_directory(inner) ? inner : arguments.recording;
   if (slam::is_cloud_folder(arguments.recording) || bag_beside(folder).empty()) check_no_topics(arguments);
-  if (slam::is_cloud_folder(arguments.recording)) return slam::open_cloud_folder(arguments.recording, given);
-  return open_folder(folder, arguments.topics, given);
+  if (slam::is_cloud_folder(arguments.recording))
+    return slam::open_cloud_folder(arguments.recording, given, arguments.motion);
+  return with_motion(open_folder(folder, arguments.topics, given), arguments.motion);
 }
 
 }  // namespace plumbline::scenarios

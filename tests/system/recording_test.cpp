@@ -49,6 +49,24 @@ TEST_F(Recordings, AMethodIsToldOfFurnitureWhatTheRunToldIt) {
   expect_same(run, run, "s_graph_localization");
 }
 
+TEST_F(Recordings, ACaptureWithFilesOfItsMotionIsTheRecording) {
+  const std::string dir = walk("beside"), pcap = dir + "/lidar.pcap", tum = dir + "/odometry.tum";
+  fs::remove(dir + "/odometry_covariance.csv");
+  const auto estimate = [&](std::vector<std::string> arguments, const std::string& out) {
+    arguments.insert(arguments.begin(), "estimate");
+    arguments.insert(arguments.end(), {"--method", "s_graphs_plus", "--unchecked", "-o", folder_ / out});
+    return plumbline(arguments);
+  };
+  ASSERT_EQ(estimate({dir}, "whole").code, 0);
+  const Outcome parts =
+      estimate({pcap, "--description", dir + "/recording.yaml", "--odometry", tum, "--imu", dir + "/imu.csv"}, "parts");
+  ASSERT_EQ(parts.code, 0) << parts.err;
+  EXPECT_NE(parts.out.find("odometry odometry.tum; IMU imu.csv"), std::string::npos) << parts.out;
+  EXPECT_EQ(read_file(folder_ / "parts/s_graphs_plus.tum"), read_file(folder_ / "whole/s_graphs_plus.tum"));
+  refuse({dir, "--method", "vgicp", "--unchecked", "--odometry", tum}, tum, "odometry of its own");
+  refuse({pcap, "--method", "vgicp", "--imu", tum}, tum, "no line of an IMU");
+}
+
 TEST_F(Recordings, DamagedOnesAreRefusedWhole) {
   const std::string dir = walk("bad"), pcap = dir + "/lidar.pcap", bag = dir + "/recording.bag";
   const std::string packets = read_file(pcap);

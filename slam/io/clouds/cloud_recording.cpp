@@ -64,8 +64,8 @@ std::string_view ending_of_cloud(std::string_view name) {
   return {};
 }
 
-bool may_be_beside_clouds(const std::string& name) {
-  return name == recording_files::info ||
+bool may_be_beside_clouds(std::string_view name) {
+  return name == recording_files::info || name == recording_files::odometry || name == recording_files::imu ||
          std::find(names_of_times.begin(), names_of_times.end(), name) != names_of_times.end();
 }
 
@@ -256,11 +256,13 @@ std::string why_no_cloud_folder(const std::string& path) {
   if (clouds <= others) return {};
   if (others > 0)
     return "point clouds and beside them '" + other.substr(0, 80) +
-           "'; a folder of clouds would hold .pcd, .ply or .bin files, times.txt and recording.yaml alone";
+           "'; a folder of clouds would hold .pcd, .ply or .bin files, times.txt, odometry.tum, imu.csv and "
+           "recording.yaml alone";
   return "point clouds of more than one ending; all .pcd, all .ply or all .bin would be right";
 }
 
-std::unique_ptr<Recording> open_cloud_folder(const std::string& path, const RecordingInfo* info) {
+std::unique_ptr<Recording> open_cloud_folder(const std::string& path, const RecordingInfo* info,
+                                             const MotionFiles& given) {
   const std::string inner = folder_of_clouds(path);
   const std::string folder = inner.empty() ? path : inner;
   std::string file = path + "/" + std::string(recording_files::info);
@@ -271,8 +273,15 @@ std::unique_ptr<Recording> open_cloud_folder(const std::string& path, const Reco
   else if (fs::exists(file))
     description = read_recording_info(read_text_file(file), file);
   const bool described = info != nullptr || fs::exists(file);
-  return std::make_unique<CloudRecording>(folder, std::move(description),
-                                          described ? MountSource::description : MountSource::unknown);
+  auto clouds = std::make_unique<CloudRecording>(folder, std::move(description),
+                                                 described ? MountSource::description : MountSource::unknown);
+  const auto beside = [&](std::string_view name) {
+    for (const std::string& place : {path, folder})
+      if (std::string found = place + "/" + std::string(name); fs::exists(found)) return found;
+    return std::string();
+  };
+  return with_motion(std::move(clouds), {given.odometry.empty() ? beside(recording_files::odometry) : given.odometry,
+                                         given.imu.empty() ? beside(recording_files::imu) : given.imu});
 }
 
 }  // namespace plumbline::slam

@@ -98,19 +98,15 @@ std::vector<StampedPose> read_euroc(std::string_view text, const std::string& fi
   return poses;
 }
 
-std::vector<StampedPose> read_kitti(std::string_view text, const std::string& file,
-                                    std::span<const Nanoseconds> scans) {
-  std::vector<StampedPose> poses;
-  for_each_line(text, [&](std::string_view line, int number) {
-    const Pose pose = parse_kitti(split(line), {file, number, 1});
-    poses.push_back({poses.size() < scans.size() ? scans[poses.size()] : Nanoseconds{0}, pose});
-    return true;
-  });
-  if (poses.size() != scans.size())
-    throw InputError({file, 0, 0}, "holds " + std::to_string(poses.size()) +
+std::vector<StampedPose> kitti_at(std::span<const Nanoseconds> scans, std::string_view text, const std::string& file) {
+  const std::vector<Pose> read = read_kitti(text, file);
+  if (read.size() != scans.size())
+    throw InputError({file, 0, 0}, "holds " + std::to_string(read.size()) +
                                        " poses in KITTI form, which has no times, and "
                                        "there are " +
                                        std::to_string(scans.size()) + " scans; give one pose a scan, or a TUM file");
+  std::vector<StampedPose> poses;
+  for (std::size_t i = 0; i < read.size(); ++i) poses.push_back({scans[i], read[i]});
   return poses;
 }
 
@@ -126,6 +122,15 @@ TrajectoryForm trajectory_form(std::string_view text) {
     return false;
   });
   return form;
+}
+
+std::vector<Pose> read_kitti(std::string_view text, const std::string& file) {
+  std::vector<Pose> poses;
+  for_each_line(text, [&](std::string_view line, int number) {
+    poses.push_back(parse_kitti(split(line), {file, number, 1}));
+    return true;
+  });
+  return poses;
 }
 
 std::vector<StampedPose> in_other_order(std::vector<StampedPose> poses, TrajectoryForm form) {
@@ -145,7 +150,7 @@ std::vector<StampedPose> read_trajectory(std::string_view text, const std::strin
     case TrajectoryForm::euroc:
       return read_euroc(text, file);
     case TrajectoryForm::kitti:
-      return read_kitti(text, file, scans);
+      return kitti_at(scans, text, file);
     default:
       return read_tum(text, file);
   }

@@ -26,6 +26,9 @@ enum class TrajectoryForm {
 [[nodiscard]] std::vector<StampedPose> read_trajectory(std::string_view text, const std::string& file,
                                                        std::span<const Nanoseconds> scans);
 
+/// Poses of KITTI's form, in order. Throws InputError naming the line that is wrong.
+[[nodiscard]] std::vector<Pose> read_kitti(std::string_view text, const std::string& file);
+
 /// The poses that a file would have, were its quaternions in the order that its form does not have: w first in a TUM
 /// file, w last in a EuRoC one. The same poses where the form is KITTI's, which has none.
 [[nodiscard]] std::vector<StampedPose> in_other_order(std::vector<StampedPose> poses, TrajectoryForm form);

@@ -61,6 +61,25 @@ TEST(CloudRecording, AScanEachPeriodThatTheDescriptionTells) {
   EXPECT_THROW((void)open_cloud_folder(folder.path(), &info)->next(first), InputError);
 }
 
+TEST(CloudRecording, HasTheOdometryThatLiesBesideTheClouds) {
+  const Folder folder;
+  write_clouds(folder, {"0.pcd", "1.pcd"});
+  std::ofstream(folder / "odometry.tum") << "0 1 2 3 0 0 0 1\n";
+  std::ofstream(folder / "imu.csv") << "t,wx,wy,wz,ax,ay,az\n0,0,0,1,0,0,9.8\n";
+  ASSERT_TRUE(is_cloud_folder(folder.path()));
+  const auto recording = open_cloud_folder(folder.path());
+  EXPECT_TRUE(recording->has_odometry());
+  SensorFrame frame;
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_EQ(frame.odometry.at(0).X_OR.t, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(frame.imu.size(), 1U);
+  const Folder elsewhere;
+  std::ofstream(elsewhere / "other.tum") << "0 4 5 6 0 0 0 1\n";
+  const auto given = open_cloud_folder(folder.path(), nullptr, {elsewhere / "other.tum", {}});
+  ASSERT_TRUE(given->next(frame));
+  EXPECT_EQ(frame.odometry.at(0).X_OR.t, Eigen::Vector3d(4, 5, 6));
+}
+
 TEST(CloudRecording, OrdersNamesByTheirNumbers) {
   const auto widths = [](const std::vector<std::string>& names) {
     const Folder folder;
