@@ -79,7 +79,9 @@ class WithMotion final : public Recording {
   WithMotion(std::unique_ptr<Recording> recording, const MotionFiles& files)
       : recording_(std::move(recording)), files_(files) {
     if (!files_.odometry.empty()) read_odometry();
-    if (!files_.imu.empty()) imu_ = read_imu(files_.imu);
+    if (files_.imu.empty()) return;
+    imu_ = read_imu(files_.imu);
+    if (imu_.empty()) throw InputError({files_.imu, 0, 0}, "holds no record of an IMU");
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return recording_->info(); }

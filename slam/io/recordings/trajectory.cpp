@@ -146,6 +146,8 @@ std::vector<StampedPose> in_other_order(std::vector<StampedPose> poses, Trajecto
 std::vector<StampedPose> read_trajectory(std::string_view text, const std::string& file,
                                          std::span<const Nanoseconds> scans) {
   text = without_byte_order_mark(text);
+  if (text.find('\0') != std::string_view::npos)
+    throw InputError({file, 0, 0}, "is no text; poses in the form of TUM, KITTI or EuRoC would be right");
   switch (trajectory_form(text)) {
     case TrajectoryForm::euroc:
       return read_euroc(text, file);

@@ -105,6 +105,9 @@ TEST_F(MotionFilesTest, WhatDoesNotFitIsRefusedWithItsPlace) {
   EXPECT_EQ(complaint({early, {}}), early + ": " + std::string(odometry_over));
   const std::string none = put("none.tum", "# t x\n");
   EXPECT_EQ(complaint({none, {}}), none + ": holds no pose");
+  EXPECT_EQ(complaint({{}, none}), none + ": holds no record of an IMU");
+  const std::string binary = put("capture.pcap", std::string("M<\0\1", 4));
+  EXPECT_EQ(complaint({binary, {}}).rfind(binary + ": is no text", 0), 0U) << complaint({binary, {}});
   for (const int lines : {3, 5}) {
     std::string text;
     for (int i = 0; i < lines; ++i) text += "1 0 0 0 0 1 0 0 0 0 1 0\n";
