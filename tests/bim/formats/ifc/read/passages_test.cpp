@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways from room to room that are no doors in walls: gaps in a wall's body.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+
+#include "bim/model/adjacency.h"
+#include "tests/bim/formats/ifc/read/reading.h"
+#include "tests/bim/formats/ifc/sketch.h"
+
+namespace plumbline::bim {
+namespace {
+
+void space(Sketch& sketch, const std::string& storey, const std::string& name, double x0, double x1) {
+  const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+  const std::string id =
+      sketch.rooted("IFCSPACE", "'" + name + "',$,$," + at + "," + sketch.shape(sketch.box(x0, 0.1, 0, x1, 5.9, 2.8)) +
+                                    ",$,.ELEMENT.,.INTERNAL.,$");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + id + ")");
+}
+
+/// A hall of 8 by 6 m with a space on either side of x = 4, `gap_m` from each other.
+void two_spaces(Sketch& sketch, double gap_m) {
+  const std::string storey = sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  for (const double y : {0.0, 6.0}) sketch.wall(0, y, 8, 0.2, 3);
+  for (const double x : {0.0, 8.0}) sketch.wall(x, 0, 6, 0.2, 3, true);
+  space(sketch, storey, "left", 0.1, 4.0 - 0.5 * gap_m);
+  space(sketch, storey, "right", 4.0 + 0.5 * gap_m, 7.9);
+}
+
+std::string across(Sketch& sketch) { return sketch.frame(4, 0, 0, "0.,0.,1.", "0.,1.,0."); }
+
+/// A wall of 0.3 m between the two; `body` draws it along x.
+Building divided_by(const std::function<std::string(Sketch&)>& body) {
+  Sketch sketch;
+  two_spaces(sketch, 0.3);
+  sketch.element("IFCWALL", sketch.wall_shape(body(sketch), 6), "$,$", across(sketch));
+  return read(sketch);
+}
+
+void expect_open(const Building& building) {
+  const std::vector<Adjacent> pairs = adjacency(building);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs.front().by, Passage::open_edge);
+  EXPECT_EQ(std::pair(pairs.front().a, pairs.front().b), std::pair(0, 1));
+  EXPECT_NEAR(pairs.front().width_m, 0.9, 0.11);
+}
+
+TEST(Passages, LeadThroughAGapInTheBodyOfAThickWall) {
+  expect_open(divided_by(
+      [](Sketch& sketch) { return sketch.box(0, -0.15, 0, 2, 0.15, 3) + "," + sketch.box(3, -0.15, 0, 6, 0.15, 3); }));
+  expect_open(divided_by([](Sketch& sketch) {
+    return sketch.box(0, -0.15, 0, 2, 0.15, 3) + "," + sketch.box(3, -0.15, 0, 6, 0.15, 3) + "," +
+           sketch.box(2, -0.15, 2.1, 3, 0.15, 3);
+  }));
+}
+
+TEST(Passages, LeadThroughANotchInTheProfileOfAWall) {
+  expect_open(divided_by([](Sketch& sketch) {
+    const std::string profile =
+        sketch.add("IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$," +
+                   sketch.polyline({{0, 0}, {2, 0}, {2, 2.1}, {3, 2.1}, {3, 0}, {6, 0}, {6, 3}, {0, 3}}) + ")");
+    return sketch.add("IFCEXTRUDEDAREASOLID(" + profile + "," + sketch.frame(0, 0.15, 0, "0.,-1.,0.", "1.,0.,0.") +
+                      "," + sketch.add("IFCDIRECTION((0.,0.,1.))") + ",0.3)");
+  }));
+}
+
+TEST(Passages, DoNotLeadThroughANicheOrAWindow) {
+  for (const bool niche : {true, false}) {
+    const Building building = divided_by([&](Sketch& sketch) {
+      const double sill = niche ? 0.0 : 0.9;
+      return sketch.box(0, -0.15, 0, 2, 0.15, 3) + "," + sketch.box(3, -0.15, 0, 6, 0.15, 3) + "," +
+             (niche ? sketch.box(2, -0.15, 0, 3, -0.05, 3)
+                    : sketch.box(2, -0.15, 0, 3, 0.15, sill) + "," + sketch.box(2, -0.15, 2.1, 3, 0.15, 3));
+    });
+    EXPECT_TRUE(adjacency(building).empty()) << niche;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::bim
