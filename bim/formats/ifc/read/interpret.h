@@ -42,6 +42,17 @@ class Interpreter {
   [[nodiscard]] Building finish();
 
  private:
+  /// What an opening cuts out of a wall.
+  struct Cut {
+    const StepProduct* product = nullptr;
+    const StepProduct* filling = nullptr;
+    int wall = -1;
+    std::vector<Solid> solids;
+    std::string id;
+    bool of_part = false;  ///< the file has it cut a part of the wall
+  };
+  [[nodiscard]] bool join_cut(const Cut& cut, std::vector<Cut>& cuts) const;
+
   [[nodiscard]] int storey_index(const StepProduct& product, double z0_m) const;
   [[nodiscard]] const StepProduct* find(std::int64_t step_id) const;
   /// True for the product itself and all it is a part of.
@@ -76,7 +87,7 @@ class Interpreter {
   /// Adds a wall with its body; one whose body is bent, as its straight pieces.
   void add_straightened(const StepProduct& product, Wall wall);
   [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;
-  void add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids, const StepProduct* filling);
+  void add_opening(const Cut& cut);
   void fill(Opening& opening, const StepProduct& filling) const;
   [[nodiscard]] bool fill_empty_opening(const StepProduct& filling, const Solid& body);
   [[nodiscard]] bool open_wall_for(const StepProduct& filling, const Solid& body);

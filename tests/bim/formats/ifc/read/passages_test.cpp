@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways from room to room that are no doors in walls: gaps in a wall's body.
+// Ways from room to room that are no doors in walls: gaps in a wall's body, holes through several
+// walls or parts of one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -76,6 +78,63 @@ TEST(Passages, DoNotLeadThroughANicheOrAWindow) {
                     : sketch.box(2, -0.15, 0, 3, 0.15, sill) + "," + sketch.box(2, -0.15, 2.1, 3, 0.15, 3));
     });
     EXPECT_TRUE(adjacency(building).empty()) << niche;
+  }
+}
+
+/// A wall of two leaves, with or without a body of its own; which of the three are cut for the door.
+Building leaves(bool own_body, bool cut_wall, bool cut_parts) {
+  Sketch sketch;
+  two_spaces(sketch, 0.3);
+  const std::string wall = sketch.element(
+      "IFCWALL", own_body ? sketch.wall_shape(sketch.box(0, -0.15, 0, 6, 0.15, 3), 6) : "$", "$,$", across(sketch));
+  std::string parts;
+  std::vector<std::string> all;
+  for (const double y : {-0.15, 0.0}) {
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + across(sketch) + ")");
+    all.push_back(sketch.rooted("IFCBUILDINGELEMENTPART",
+                                "'leaf',$,$," + at + "," + sketch.shape(sketch.box(0, y, 0, 6, y + 0.15, 3)) + ",$,$"));
+    parts += (parts.empty() ? "" : ",") + all.back();
+  }
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + wall + ",(" + parts + ")");
+  if (cut_parts)
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double x0 = i == 0 ? 4.0 : 3.7;  // no deeper than the leaf itself
+      const std::string hole = sketch.opening(all[i], sketch.box(x0, 2, 0, x0 + 0.3, 3, 2.1));
+      if (!cut_wall && i == 0) sketch.door(hole);
+    }
+  if (cut_wall) sketch.door(sketch.opening(wall, sketch.box(3.7, 2, 0, 4.3, 3, 2.1)));
+  return read(sketch);
+}
+
+TEST(Passages, AHoleThroughTheLeavesOfAWallCountsOnce) {
+  for (const bool own_body : {true, false})
+    for (const bool cut_wall : {true, false}) {
+      const Building building = leaves(own_body, cut_wall, true);
+      ASSERT_EQ(building.openings.size(), 1u) << own_body << cut_wall;
+      EXPECT_EQ(building.openings.front().kind, OpeningKind::door);
+      EXPECT_EQ(count(building, "niche"), 0) << own_body << cut_wall;
+      const std::vector<Adjacent> pairs = adjacency(building);
+      ASSERT_EQ(pairs.size(), 1u);
+      EXPECT_EQ(pairs.front().by, Passage::door);
+    }
+}
+
+TEST(Passages, AHoleThroughWallsUponEachOtherCountsOnce) {
+  for (const bool own_hole : {true, false}) {
+    Sketch sketch;
+    two_spaces(sketch, 0.3);
+    const std::string low = sketch.wall(4, 0, 6, 0.3, 1.5, true);
+    const std::string high =
+        sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, -0.15, 1.5, 6, 0.15, 3), 6), "$,$", across(sketch));
+    sketch.door(sketch.opening(low, sketch.box(3.7, 2, 0, 4.3, 3, 2.1)));
+    if (own_hole) sketch.opening(high, sketch.box(3.7, 2, 0, 4.3, 3, 2.1));
+    const Building building = read(sketch);
+    ASSERT_EQ(building.openings.size(), 2u);
+    const std::vector<bool> continued = continued_openings(building);
+    EXPECT_EQ(std::count(continued.begin(), continued.end(), true), 1) << own_hole;
+    const std::vector<Adjacent> pairs = adjacency(building);
+    ASSERT_EQ(pairs.size(), 1u) << own_hole;
+    EXPECT_EQ(pairs.front().by, Passage::door);
   }
 }
 
