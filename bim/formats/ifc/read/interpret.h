@@ -110,8 +110,11 @@ class Interpreter {
     Eigen::Vector2d inner;
     double z_m = 0.0;
     std::string name;
+    Polygon2 outline;
+    const StepProduct* space = nullptr;
   };
   [[nodiscard]] std::vector<NamedPlace> places_of_outlines() const;
+  void add_rooms_of_outlines();
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);
