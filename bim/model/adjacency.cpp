@@ -72,9 +72,16 @@ std::vector<Adjacent> adjacency(const Building& building) {
   }
   // By (room, room beyond): the two may see different parts of what is open between them (a stair beside a gallery).
   std::map<std::pair<int, int>, double> seen, open_edges;
+  std::map<std::string, Adjacent> doors;
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
-    for (const VirtualEdge& edge : building.rooms[i].virtual_edges)
-      if (edge.room >= 0) seen[{static_cast<int>(i), edge.room}] += (edge.b - edge.a).norm();
+    for (const VirtualEdge& edge : building.rooms[i].virtual_edges) {
+      const double width_m = (edge.b - edge.a).norm();
+      if (!edge.door.empty())
+        doors.try_emplace(edge.door, Adjacent{static_cast<int>(i), edge.room, Passage::door, edge.door, width_m});
+      else if (edge.room >= 0)
+        seen[{static_cast<int>(i), edge.room}] += width_m;
+    }
+  for (const auto& [id, door] : doors) add(list, door.a, door.b, door.by, id, door.width_m);
   for (const auto& [rooms, width_m] : seen) {
     double& widest = open_edges[std::minmax(rooms.first, rooms.second)];
     widest = std::max(widest, width_m);

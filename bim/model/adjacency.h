@@ -25,9 +25,9 @@ struct Adjacent {
 [[nodiscard]] std::vector<bool> continued_openings(const Building& building);
 
 /// Which rooms meet, and how: through the openings of walls (Opening::rooms), where no wall stands between them
-/// (Room::virtual_edges) and over stairs (Stair::rooms). One entry an opening that
-/// does not continue another, stair or pair of rooms with an open edge; rooms that meet in two ways stand twice. Sorted
-/// by a, b, kind, element.
+/// (Room::virtual_edges, with the doors that stand there) and over stairs (Stair::rooms). One entry an opening that
+/// does not continue another, door, stair or pair of rooms with an open edge; rooms that meet in two ways stand twice.
+/// Sorted by a, b, kind, element.
 [[nodiscard]] std::vector<Adjacent> adjacency(const Building& building);
 
 }  // namespace plumbline::bim

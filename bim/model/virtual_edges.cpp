@@ -82,7 +82,8 @@ void add_wall_blockers(const Building& building, int index, const AdjacencyConfi
 }
 
 std::vector<Blocker> blockers_of(const Building& building, const AdjacencyConfig& config) {
-  constexpr std::array<std::string_view, 5> closing{"curtain_panel", "curtain_wall", "mullion", "plate", "window"};
+  constexpr std::array<std::string_view, 6> closing{"curtain_panel", "curtain_wall", "mullion",
+                                                    "part",          "plate",        "window"};
   std::vector<Blocker> blockers;
   for (int i = 0; i < static_cast<int>(building.walls.size()); ++i) add_wall_blockers(building, i, config, blockers);
   for (const Column& column : building.columns)

@@ -8,6 +8,7 @@
 
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/formats/ifc/step/step_model.h"
+#include "bim/model/door_edges.h"
 
 namespace plumbline::bim {
 
@@ -40,6 +41,8 @@ class Interpreter {
   /// Storey heights and kinds from what stands on them; rooms from walls in a file without spaces; materials; canonical
   /// order of all lists.
   [[nodiscard]] Building finish();
+  /// Doors that stand in no wall.
+  [[nodiscard]] const std::vector<FreeDoor>& free_doors() const { return free_doors_; }
 
  private:
   /// What an opening cuts out of a wall.
@@ -131,6 +134,7 @@ class Interpreter {
   std::map<std::int64_t, std::vector<int>> walls_;                   ///< indices by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
   std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut
+  std::vector<FreeDoor> free_doors_;
   std::set<std::int64_t> taken_;  ///< STEP numbers of parts that went into their whole
 };
 

@@ -241,17 +241,19 @@ void Interpreter::add_unlinked_fillings() {
       warn(product, "second_filling", "its opening is filled by another door or window already");
       continue;
     }
+    const StepProduct* hole = find(product.host);
     Solid body = joined(uncut_solids(product));
+    if (door && body.triangles.empty() && hole != nullptr && !hole->body.empty()) body = joined(solids_of(*hole));
     if (body.triangles.empty()) {
       warn(product, "no_body", "has neither an opening nor a body, and is left out");
       continue;
     }
     // An opening without a body, or in nothing, says no more than none.
-    const StepProduct* hole = find(product.host);
     const bool in_other = hole != nullptr && !hole->body.empty() && find(hole->host) != nullptr;
     if (!in_other && (fill_empty_opening(product, body) || open_wall_for(product, body))) continue;
     if (door) {
       warn(product, "door_without_wall", "stands in no wall, and is left open");
+      free_doors_.push_back({product.id, std::move(body)});
     } else {
       add_obstacle(product, in_other ? "roof_window" : "window", "glass", std::move(body));
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways from room to room that are no doors in walls: gaps in a wall's body, holes through several
-// walls or parts of one.
+// Ways from room to room that are no doors in walls: gaps in a wall's body, doors of curtain walls, holes through
+// several walls or parts of one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
+#include "bim/formats/ifc/write/write_ifc.h"
 #include "bim/model/adjacency.h"
 #include "tests/bim/formats/ifc/read/reading.h"
 #include "tests/bim/formats/ifc/sketch.h"
@@ -79,6 +80,52 @@ TEST(Passages, DoNotLeadThroughANicheOrAWindow) {
     });
     EXPECT_TRUE(adjacency(building).empty()) << niche;
   }
+}
+
+enum class CurtainDoor { aggregated, filling, loose };
+
+/// Two panels with a door and a panel over it between them.
+Sketch curtain(CurtainDoor how, double gap_m) {
+  Sketch sketch;
+  two_spaces(sketch, gap_m);
+  const auto part = [&](const std::string& type, double y0, double y1, double z0, double z1, const std::string& rest) {
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+    return sketch.rooted(
+        type, "'" + type + "',$,$," + at + "," + sketch.shape(sketch.box(3.97, y0, z0, 4.03, y1, z1)) + "," + rest);
+  };
+  std::string parts = part("IFCPLATE", 0.1, 2, 0, 3, "$,$") + "," + part("IFCPLATE", 3, 5.9, 0, 3, "$,$") + "," +
+                      part("IFCPLATE", 2, 3, 2.1, 3, "$,$");
+  const std::string front = sketch.element("IFCCURTAINWALL", "$", "$,$");
+  if (how == CurtainDoor::loose) {
+    sketch.element("IFCDOOR", sketch.shape(sketch.box(3.97, 2, 0, 4.03, 3, 2.1)), "$,2.1,1.,$,$,$");
+  } else if (how == CurtainDoor::aggregated) {
+    parts += "," + part("IFCDOOR", 2, 3, 0, 2.1, "$,2.1,1.,$,$,$");
+  } else {
+    sketch.door(sketch.opening(front, sketch.box(3.9, 2, 0, 4.1, 3, 2.1)));
+  }
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + front + ",(" + parts + ")");
+  return sketch;
+}
+
+TEST(Passages, DoorsOfACurtainWallAreDoors) {
+  for (const CurtainDoor how : {CurtainDoor::aggregated, CurtainDoor::filling, CurtainDoor::loose})
+    for (const double gap_m : {0.06, 0.3}) {
+      const Building building = read(curtain(how, gap_m));
+      const std::vector<Adjacent> pairs = adjacency(building);
+      ASSERT_EQ(pairs.size(), 1u) << static_cast<int>(how) << " " << gap_m;
+      EXPECT_EQ(pairs.front().by, Passage::door);
+      EXPECT_EQ(std::pair(pairs.front().a, pairs.front().b), std::pair(0, 1));
+      EXPECT_NEAR(pairs.front().width_m, 1.0, 1e-6);
+      EXPECT_FALSE(pairs.front().element.empty());
+    }
+}
+
+TEST(Passages, DoorsOfACurtainWallAreWrittenAndReadAgain) {
+  const Building building = read(curtain(CurtainDoor::aggregated, 0.06));
+  const Building again = read_ifc_text(write_ifc(building), "again.ifc");
+  EXPECT_EQ(again.hash(), building.hash());
+  ASSERT_EQ(adjacency(again).size(), 1u);
+  EXPECT_EQ(adjacency(again).front().by, Passage::door);
 }
 
 /// A wall of two leaves, with or without a body of its own; which of the three are cut for the door.
