@@ -68,7 +68,9 @@ OutlineRing stretch_of(const OutlineRing& points, double from, double to) {
 
 std::optional<double> curve_parameter(const StepValue& value, double usual) {
   if (value.kind == Kind::none) return usual;
-  if (value.kind == Kind::typed) return value.as_typed().as_number();
+  // IFC4X3 may give a length along the curve instead.
+  if (value.kind == Kind::typed)
+    return value.text == "IFCPARAMETERVALUE" ? std::optional(value.as_typed().as_number()) : std::nullopt;
   return value.kind == Kind::number ? std::optional(value.number) : std::nullopt;
 }
 

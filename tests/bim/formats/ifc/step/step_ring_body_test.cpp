@@ -71,6 +71,15 @@ TEST(SweepOnPlane, HasItsProfilesXAxisAlongTheNormal) {
   expect_box(board_along("0.,1.", bent), 0.4, {1, 0, -0.1}, {3, 1, 0.1});
 }
 
+TEST(SweepOnPlane, BeginsAndEndsAtParametersAndNotAtLengths) {
+  const auto bent = [](Sketch& sketch) { return line_of(sketch, 3); };
+  expect_box(board_along("IFCPARAMETERVALUE(0.),IFCPARAMETERVALUE(1.)", bent), 0.4, {1, 0, -0.1}, {3, 1, 0.1});
+  for (const char* wrong : {"0.,3.", "1.,0.", "IFCNONNEGATIVELENGTHMEASURE(0.),IFCNONNEGATIVELENGTHMEASURE(1.)"}) {
+    const StepBody body = board_along(wrong, bent);
+    EXPECT_TRUE(body.solids.empty()) << wrong;
+  }
+}
+
 TEST(SweepOnPlane, AlongACurveIsLeftOutByName) {
   const StepBody body =
       board_along("$,$", [](Sketch& sketch) { return sketch.add("IFCCIRCLE(" + sketch.frame(0, 0, 0) + ",3.)"); });
