@@ -2,6 +2,7 @@
 #include "bim/model/adjacency.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -27,17 +28,60 @@ void add(std::vector<Adjacent>& list, int a, int b, Passage by, const std::strin
   list.push_back({a, b, by, element, width_m});
 }
 
+/// Whether two openings of different walls that stand upon or before each other are one hole.
+bool is_same_hole(const Building& building, const Opening& p, const Opening& q) {
+  constexpr double apart_m = 0.5, upon_m = 0.05, parallel = 0.05;
+  if (p.wall == q.wall || p.z0_m > q.z1_m + upon_m || q.z0_m > p.z1_m + upon_m) return false;
+  const auto middle = [&](const Opening& opening) -> Eigen::Vector2d {
+    const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+    return wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
+  };
+  const Wall& wall = building.walls[static_cast<std::size_t>(q.wall)];
+  const Eigen::Vector2d away = middle(p) - middle(q);
+  return std::abs(building.walls[static_cast<std::size_t>(p.wall)].direction().dot(wall.left())) < parallel &&
+         std::abs(away.dot(wall.direction())) < 0.5 * std::max(p.width_m, q.width_m) &&
+         std::abs(away.dot(wall.left())) < apart_m;
+}
+
 }  // namespace
+
+std::vector<bool> continued_openings(const Building& building) {
+  const std::vector<Opening>& openings = building.openings;
+  std::vector<bool> continued(openings.size(), false);
+  std::map<std::pair<int, int>, std::vector<std::size_t>> by_rooms;
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    if (openings[i].kind != OpeningKind::window && openings[i].wall >= 0 &&
+        openings[i].rooms[0] != openings[i].rooms[1])
+      by_rooms[std::minmax(openings[i].rooms[0], openings[i].rooms[1])].push_back(i);
+  for (const auto& [rooms, group] : by_rooms)
+    for (const std::size_t i : group)
+      continued[i] =
+          openings[i].kind == OpeningKind::opening_void && std::any_of(group.begin(), group.end(), [&](std::size_t k) {
+            return (openings[k].kind == OpeningKind::door || k < i) && is_same_hole(building, openings[i], openings[k]);
+          });
+  return continued;
+}
 
 std::vector<Adjacent> adjacency(const Building& building) {
   std::vector<Adjacent> list;
-  for (const Opening& opening : building.openings)
+  const std::vector<bool> continued = continued_openings(building);
+  for (std::size_t i = 0; i < building.openings.size(); ++i) {
+    const Opening& opening = building.openings[i];
+    if (continued[i]) continue;
     add(list, opening.rooms[0], opening.rooms[1], passage_of(opening.kind), opening.id, opening.width_m);
+  }
   // By (room, room beyond): the two may see different parts of what is open between them (a stair beside a gallery).
   std::map<std::pair<int, int>, double> seen, open_edges;
+  std::map<std::string, Adjacent> doors;
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
-    for (const VirtualEdge& edge : building.rooms[i].virtual_edges)
-      if (edge.room >= 0) seen[{static_cast<int>(i), edge.room}] += (edge.b - edge.a).norm();
+    for (const VirtualEdge& edge : building.rooms[i].virtual_edges) {
+      const double width_m = (edge.b - edge.a).norm();
+      if (!edge.door.empty())
+        doors.try_emplace(edge.door, Adjacent{static_cast<int>(i), edge.room, Passage::door, edge.door, width_m});
+      else if (edge.room >= 0)
+        seen[{static_cast<int>(i), edge.room}] += width_m;
+    }
+  for (const auto& [id, door] : doors) add(list, door.a, door.b, door.by, id, door.width_m);
   for (const auto& [rooms, width_m] : seen) {
     double& widest = open_edges[std::minmax(rooms.first, rooms.second)];
     widest = std::max(widest, width_m);

@@ -54,7 +54,10 @@ void add(Digest& digest, const Room& room) {
   digest.add(static_cast<int>(room.walls.size()));
   for (const int wall : room.walls) digest.add(wall);
   digest.add(static_cast<int>(room.virtual_edges.size()));
-  for (const VirtualEdge& edge : room.virtual_edges) digest.add(edge.a).add(edge.b).add(edge.room);
+  for (const VirtualEdge& edge : room.virtual_edges) {
+    digest.add(edge.a).add(edge.b).add(edge.room);
+    if (!edge.door.empty()) digest.add(edge.door);
+  }
 }
 
 void add(Digest& digest, const Slab& slab) {

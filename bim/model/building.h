@@ -83,6 +83,7 @@ struct VirtualEdge {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();  ///< along the outline, counter-clockwise
   int room = -1;                                ///< index of the room beyond, -1 outside or unknown
+  std::string door = {};                        ///< id of the door that stands there in no wall, or empty
 };
 
 struct Room {

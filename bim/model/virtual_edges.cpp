@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "bim/geometry/interval.h"
 #include "bim/model/boxes.h"
 #include "bim/model/hull.h"
 #include "bim/model/wall_face.h"
@@ -14,6 +15,9 @@
 
 namespace plumbline::bim {
 namespace {
+
+constexpr double passage_m = 1.0;  // where a wall is open, the room beyond begins up to this far away
+constexpr double front_m = 0.15;   // a room ends up to this far before panels of a curtain wall, whose posts are deep
 
 /// Stretch of an edge, m from its start.
 struct Stretch {
@@ -32,6 +36,7 @@ struct Edge {
 struct Blocker {
   Polygon2 hull;  ///< convex, counter-clockwise
   double z0_m, z1_m;
+  double margin_m;  ///< an edge this close runs along it
 };
 
 double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
@@ -42,8 +47,8 @@ Polygon2 on_plan(const Solid& solid) {
   return points;
 }
 
-Blocker blocker_of(const Solid& solid) {
-  Blocker blocker{convex_hull(on_plan(solid)), 0.0, 0.0};
+Blocker blocker_of(const Solid& solid, double margin_m) {
+  Blocker blocker{convex_hull(on_plan(solid)), 0.0, 0.0, margin_m};
   if (solid.vertices.empty()) return blocker;
   const auto [low, high] = std::minmax_element(solid.vertices.begin(), solid.vertices.end(),
                                                [](const auto& p, const auto& q) { return p.z() < q.z(); });
@@ -52,24 +57,40 @@ Blocker blocker_of(const Solid& solid) {
   return blocker;
 }
 
-std::vector<Blocker> blockers_of(const Building& building) {
-  constexpr std::array<std::string_view, 5> closing{"curtain_panel", "curtain_wall", "mullion", "plate", "window"};
+/// A wall, or the surface of one that is bent or open at walking height, whatever is above its passages.
+void add_wall_blockers(const Building& building, int index, const AdjacencyConfig& config,
+                       std::vector<Blocker>& blockers) {
   constexpr double face_m = 0.1;
-  std::vector<Blocker> blockers;
-  for (std::size_t i = 0; i < building.walls.size(); ++i) {
-    const Wall& wall = building.walls[i];
-    if (is_straight(wall, openings_of(building, static_cast<int>(i)), {wall.z0_m, wall.z1_m})) {
-      blockers.push_back({convex_hull(footprint(wall)), wall.z0_m, wall.z1_m});
-      continue;
+  const Wall& wall = building.walls[static_cast<std::size_t>(index)];
+  const std::vector<Opening> openings = openings_of(building, index);
+  const auto add = [&](const Interval& z) {
+    if (z.length() <= 0.0) return;
+    if (is_straight(wall, openings, z)) {
+      blockers.push_back({convex_hull(footprint(wall)), z.low, z.high, config.gap_m});
+      return;
     }
-    for (const Wall& face : surface_walls(wall, 0.5 * (wall.z0_m + wall.z1_m), face_m))
-      blockers.push_back({convex_hull(footprint(face)), wall.z0_m, wall.z1_m});
+    for (const Wall& face : surface_walls(wall, 0.5 * (z.low + z.high), face_m))
+      blockers.push_back({convex_hull(footprint(face)), z.low, z.high, config.gap_m});
+  };
+  const Interval whole{wall.z0_m, wall.z1_m}, low{wall.z0_m, std::min(wall.z1_m, wall.z0_m + config.walking_m)};
+  if (is_straight(wall, openings, whole) && !is_straight(wall, openings, low)) {
+    add(low);
+    add({low.high, wall.z1_m});
+  } else {
+    add(whole);
   }
+}
+
+std::vector<Blocker> blockers_of(const Building& building, const AdjacencyConfig& config) {
+  constexpr std::array<std::string_view, 6> closing{"curtain_panel", "curtain_wall", "mullion",
+                                                    "part",          "plate",        "window"};
+  std::vector<Blocker> blockers;
+  for (int i = 0; i < static_cast<int>(building.walls.size()); ++i) add_wall_blockers(building, i, config, blockers);
   for (const Column& column : building.columns)
-    blockers.push_back({convex_hull(column.footprint), column.z0_m, column.z1_m});
+    blockers.push_back({convex_hull(column.footprint), column.z0_m, column.z1_m, config.gap_m});
   for (const Obstacle& obstacle : building.obstacles)
     if (std::find(closing.begin(), closing.end(), obstacle.kind) != closing.end())
-      blockers.push_back(blocker_of(obstacle.body));
+      blockers.push_back(blocker_of(obstacle.body, obstacle.kind == "window" ? config.gap_m : front_m));
   return blockers;
 }
 
@@ -120,8 +141,8 @@ struct Surroundings {
   BoxIndex blocker_boxes, room_boxes;
 };
 
-Surroundings surroundings_of(const Building& building) {
-  Surroundings around{blockers_of(building), {}, boxes_of(building.rooms)};
+Surroundings surroundings_of(const Building& building, const AdjacencyConfig& config) {
+  Surroundings around{blockers_of(building, config), {}, boxes_of(building.rooms)};
   for (const Blocker& blocker : around.blockers) around.blocker_boxes.add(blocker.hull);
   return around;
 }
@@ -134,7 +155,7 @@ class EdgeFinder {
         blockers_(around.blockers),
         index_(room),
         room_(building.rooms[static_cast<std::size_t>(room)]),
-        near_blockers_(around.blocker_boxes.near(room_.polygon, config.gap_m)),
+        near_blockers_(around.blocker_boxes.near(room_.polygon, passage_m)),
         near_rooms_(around.room_boxes.near(room_.polygon, config.virtual_gap_m)),
         config_(config) {}
 
@@ -154,7 +175,7 @@ class EdgeFinder {
     for (const int index : near_blockers_) {
       const Blocker& blocker = blockers_[static_cast<std::size_t>(index)];
       if (common_height(room_, blocker.z0_m, blocker.z1_m, config_) <= config_.z_overlap_m) continue;
-      if (const auto covered = inside(edge, blocker.hull, config_.gap_m)) open = without(open, *covered);
+      if (const auto covered = inside(edge, blocker.hull, blocker.margin_m)) open = without(open, *covered);
     }
     return open;
   }
@@ -190,12 +211,25 @@ class EdgeFinder {
     return stretch.from < stretch.to ? std::optional(stretch) : std::nullopt;
   }
 
+  /// The room in front of the middle of a stretch; through a passage in a thick wall as far as nothing stands there.
   [[nodiscard]] int beyond(const Edge& edge, const Stretch& stretch) const {
-    const Eigen::Vector2d u = edge.along();
-    const Eigen::Vector2d p =
-        edge.at((stretch.from + stretch.to) / 2.0) + config_.step_m * Eigen::Vector2d(u.y(), -u.x());
-    const int room = room_at(building_, p, room_.z0_m, config_);
-    return room == index_ ? -1 : room;
+    constexpr double step_m = 0.05;
+    const Eigen::Vector2d u = edge.along(), middle = edge.at((stretch.from + stretch.to) / 2.0), out(u.y(), -u.x());
+    for (double far = config_.step_m; far <= passage_m; far += step_m) {
+      const int room = room_at(building_, middle + far * out, room_.z0_m, config_);
+      if (room >= 0) return room == index_ ? -1 : room;
+      if (is_blocked(middle + far * out)) return -1;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] bool is_blocked(const Eigen::Vector2d& p) const {
+    return std::any_of(near_blockers_.begin(), near_blockers_.end(), [&](int index) {
+      const Blocker& blocker = blockers_[static_cast<std::size_t>(index)];
+      return blocker.hull.size() >= 3 &&
+             common_height(room_, blocker.z0_m, blocker.z1_m, config_) > config_.z_overlap_m &&
+             contains(blocker.hull, p);
+    });
   }
 
   void emit(const Edge& edge, const Stretch& stretch, int room, std::vector<VirtualEdge>& edges) const {
@@ -240,7 +274,7 @@ int room_at_one_of(const Building& building, int storey, const std::array<Eigen:
 }  // namespace
 
 void find_virtual_edges(Building& building, const AdjacencyConfig& config) {
-  const Surroundings around = surroundings_of(building);
+  const Surroundings around = surroundings_of(building, config);
   for (std::size_t i = 0; i < building.rooms.size(); ++i)
     building.rooms[i].virtual_edges = EdgeFinder(building, around, static_cast<int>(i), config).find();
 }

@@ -39,7 +39,8 @@ std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const 
   if (options.storey)
     throw InputError({"--storey", 0, 0},
                      "there is no storey '" + *options.storey + "'; there are: " + names_of(building.storeys));
-  throw InputError({options.file, 0, 0}, "has no storey with rooms or walls; `identify` maps those");
+  throw InputError({options.file, 0, 0},
+                   "has no storey with rooms or walls, and `identify` maps those; its walls (IfcWall) would help");
 }
 
 Tree tree_of(const MapShare& share) {
@@ -94,9 +95,10 @@ class MapMaker {
   MapMaker(const RunBuilding& building, const BuildingMapOptions& options, PlanEvidence by)
       : building_(building), options_(options), visible_(visible_building(building, by)) {
     if (visible_.featureless)
-      throw InputError({options.file, 0, 0},
-                       "has no wall, column or other element that stays where it is and that a LiDAR sees; no pose in "
-                       "it is identifiable, and `identify` maps buildings that have some");
+      throw InputError(
+          {options.file, 0, 0},
+          "has no wall, column or other element that stays where it is and that a LiDAR sees; no pose in "
+          "it is identifiable, and `identify` maps buildings that have some; its walls (IfcWall) would help");
     input_.as_planned = &visible_.planned.scene;
     input_.as_built = &visible_.as_built().scene;
     input_.loose = visible_.loose;

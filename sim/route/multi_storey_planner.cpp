@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/route/multi_storey_planner.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "bim/config/tree.h"
+#include "bim/model/stair_flight.h"
+#include "sim/robot/ground.h"
+#include "sim/robot/types/dimensions.h"
 
 namespace plumbline::sim {
 
@@ -13,6 +20,56 @@ constexpr double same_place_m = 1e-9;
 void append(const std::vector<Waypoint>& segment, std::vector<Waypoint>& path) {
   const bool joined = !path.empty() && !segment.empty();
   path.insert(path.end(), segment.begin() + (joined ? 1 : 0), segment.end());
+}
+
+/// Longest stretch from `from` to `to`, at one height, without floor under a foot, m.
+double gap_between(const Ground& ground, const Eigen::Vector3d& from, const Eigen::Vector2d& to, double lowest_m) {
+  constexpr double sample_m = 0.01;
+  const Eigen::Vector2d way = to - from.head<2>(), left = Eigen::Vector2d(-way.y(), way.x()).normalized();
+  const double foot = robot_dimensions.hip_y + robot_dimensions.abduction;
+  const int count = static_cast<int>(std::ceil(way.norm() / sample_m));
+  double most = 0.0;
+  for (const double side : {-foot, 0.0, foot}) {
+    double gap = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector2d p = from.head<2>() + ((i + 0.5) / count) * way + side * left;
+      const bool carries = ground.height(p.x(), p.y(), from.z() + lowest_m) >= from.z() - lowest_m;
+      gap = carries ? 0.0 : gap + way.norm() / count;
+      most = std::max(most, gap);
+    }
+  }
+  return most;
+}
+
+std::string gap_fault(double gap_m, const std::string& where) {
+  constexpr double most_m = 0.12;  // 0.1 m, tried, and what the edges of wells are found to
+  const auto metres = [](double x) { return format_number(std::round(x * 1e2) / 1e2) + " m"; };
+  if (gap_m <= most_m) return "";
+  return "has a gap of " + metres(gap_m) + " in the floor " + where + "; the robot steps over " + metres(most_m);
+}
+
+/// The floor map closes gaps under walls; a foot beyond the last step finds what is there.
+void find_gaps(const bim::Building& building, const StairWayConfig& config, std::vector<StairWay>& ways) {
+  std::vector<int> storeys;
+  for (const StairWay& way : ways)
+    if (way.fault.empty()) storeys.insert(storeys.end(), {way.from, way.to});
+  if (storeys.empty()) return;
+  std::sort(storeys.begin(), storeys.end());
+  storeys.erase(std::unique(storeys.begin(), storeys.end()), storeys.end());
+  const Ground ground = building_ground(building, storeys);
+  const double lowest_m = 2.0 * config.rise_max_m;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    StairWay& way = ways[i];
+    if (!way.fault.empty()) continue;
+    const bim::Stair& stair = building.stairs[i];
+    const Eigen::Vector2d foot = stair.flights.front().start, head = bim::head_of(stair.flights.back(), 0.0);
+    const Eigen::Vector3d &first = way.points.front(), &last = way.points.back();
+    way.fault = gap_fault(gap_between(ground, {foot.x(), foot.y(), first.z()}, first.head<2>(), lowest_m),
+                          "before its first step");
+    if (way.fault.empty())
+      way.fault = gap_fault(gap_between(ground, {head.x(), head.y(), last.z()}, last.head<2>(), lowest_m),
+                            "beyond its last step");
+  }
 }
 
 }  // namespace
@@ -71,6 +128,7 @@ const std::vector<StairWay>& MultiStoreyPlanner::stairs() const {
   auto ways = std::make_unique<std::vector<StairWay>>(stair_ways(building_, config_.route, config_.stair));
   for (StairWay& way : *ways)
     if (way.fault.empty()) add_approaches(way);
+  find_gaps(building_, config_.stair, *ways);
   stairs_ = std::move(ways);
   return *stairs_;
 }

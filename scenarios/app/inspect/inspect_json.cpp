@@ -198,6 +198,7 @@ class Inspector {
     for (const bim::VirtualEdge& edge : room.virtual_edges) {
       Tree tree = Tree::map();
       tree.set("a", number_list(edge.a)).set("b", number_list(edge.b)).set("room", room_id(edge.room));
+      if (!edge.door.empty()) tree.set("door", edge.door);
       list.push(std::move(tree));
     }
     return list;

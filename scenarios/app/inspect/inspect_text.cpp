@@ -61,11 +61,16 @@ int on_storey(const Elements& elements, int storey) {
       std::count_if(elements.begin(), elements.end(), [&](const auto& e) { return e.storey == storey; }));
 }
 
-int openings_on(const Building& building, int storey, bim::OpeningKind kind) {
-  return static_cast<int>(
-      std::count_if(building.openings.begin(), building.openings.end(), [&](const bim::Opening& opening) {
-        return opening.kind == kind && building.walls[static_cast<std::size_t>(opening.wall)].storey == storey;
-      }));
+/// Each hole once, through however many walls it leads.
+int openings_on(const Building& building, const std::vector<bool>& continued, int storey, bim::OpeningKind kind) {
+  int count = 0;
+  for (std::size_t i = 0; i < building.openings.size(); ++i) {
+    const bim::Opening& opening = building.openings[i];
+    if (!continued[i] && opening.kind == kind &&
+        building.walls[static_cast<std::size_t>(opening.wall)].storey == storey)
+      ++count;
+  }
+  return count;
 }
 
 std::string label(const std::string& name, const std::string& id) { return name.empty() ? id : name; }
@@ -74,10 +79,13 @@ std::string storey_table(const Building& building) {
   Table table({"storey", "floor m", "height m", "walls", "rooms", "doors", "windows", "voids", "slabs", "columns",
                "obstacles", "kind"});
   constexpr const char* kinds[] = {"habitable", "foundation", "roof"};
+  const std::vector<bool> continued = bim::continued_openings(building);
   for (std::size_t i = 0; i < building.storeys.size(); ++i) {
     const bim::Storey& storey = building.storeys[i];
     const int s = static_cast<int>(i);
-    const auto openings = [&](bim::OpeningKind kind) { return std::to_string(openings_on(building, s, kind)); };
+    const auto openings = [&](bim::OpeningKind kind) {
+      return std::to_string(openings_on(building, continued, s, kind));
+    };
     table.add({label(storey.name, storey.id), fixed_point(storey.elevation_m, 2), fixed_point(storey.height_m, 2),
                std::to_string(on_storey(building.walls, s)), std::to_string(on_storey(building.rooms, s)),
                openings(bim::OpeningKind::door), openings(bim::OpeningKind::window),

@@ -64,18 +64,20 @@ TEST(VirtualEdges, AWallAboveOrBelowTheRoomClosesNothing) {
   EXPECT_EQ(building.rooms[0].virtual_edges.size(), 1u);
 }
 
-TEST(VirtualEdges, CurtainPanelClosesAnEdge) {
+TEST(VirtualEdges, CurtainPanelsAndLooseLayersCloseAnEdge) {
   Building building = open_plan("");
   ASSERT_EQ(building.rooms[0].virtual_edges.size(), 1u);
   Obstacle panel;
   panel.id = "p";
-  panel.kind = "curtain_panel";
   for (const double x : {3.99, 4.01})
     for (const double y : {0.0, 5.0})
       for (const double z : {0.0, 3.0}) panel.body.vertices.emplace_back(x, y, z);
   building.obstacles.push_back(panel);
-  find_virtual_edges(building);
-  EXPECT_TRUE(building.rooms[0].virtual_edges.empty());
+  for (const char* kind : {"curtain_panel", "part"}) {
+    building.obstacles.back().kind = kind;
+    find_virtual_edges(building);
+    EXPECT_TRUE(building.rooms[0].virtual_edges.empty()) << kind;
+  }
 }
 
 TEST(Adjacency, NamesDoorsWindowsAndVoids) {

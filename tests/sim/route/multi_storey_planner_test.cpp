@@ -209,6 +209,27 @@ TEST(MultiStoreyPlanner, WhatEndsUnderTheFloorAboveIsNotInTheWayOfTheLastSteps) 
   EXPECT_NE(MultiStoreyPlanner(tower).stairs().front().fault, "");
 }
 
+/// The floor above begins beyond the last step, by as much as the robot does not step over.
+TEST(MultiStoreyPlanner, AGapInTheFloorBeyondTheLastStepIsAFault) {
+  const double head = 1.6 + 17 * 0.27;
+  const auto fault = [&](double gap_m) {
+    bim::Building tower = building(straight);
+    bim::Slab slab;
+    slab.id = "upper floor";
+    slab.storey = 1;
+    slab.z0_m = 2.8;
+    slab.z1_m = 3.0;
+    slab.polygon = {{{0, 0}, {8, 0}, {8, 6}, {0, 6}},
+                    {{{1.5, 2.4}, {1.5, 3.6}, {head + gap_m, 3.6}, {head + gap_m, 2.4}}}};
+    std::erase_if(tower.slabs, [](const bim::Slab& other) { return other.z1_m > 2.9 && other.z1_m < 3.1; });
+    tower.slabs.push_back(slab);
+    return MultiStoreyPlanner(tower).stairs().front().fault;
+  };
+  EXPECT_EQ(fault(0.0), "");
+  EXPECT_EQ(fault(0.08), "");
+  EXPECT_NE(fault(0.3).find("in the floor beyond its last step"), std::string::npos) << fault(0.3);
+}
+
 TEST(MultiStoreyPlanner, AStairIsUnderTheStairAbove) {
   bim::Building tower = building(straight);
   tower.storeys.push_back(tower.storeys.back());

@@ -191,6 +191,7 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   find_opening_rooms(building);
   warn_of_unresolved_doors(building);
   find_virtual_edges(building);
+  add_door_edges(building, interpreter.free_doors());
   find_stair_rooms(building);
   warn_of_missing_floors(building);
   return building;

@@ -224,26 +224,6 @@ void Interpreter::sort_all() {
   });
 }
 
-/// Where the spaces without a body lie, of those that have a name and an outline. Of one place the first by id.
-std::vector<Interpreter::NamedPlace> Interpreter::places_of_outlines() const {
-  constexpr std::size_t most_corners = 1000;  // of a room; bounds the time
-  std::vector<NamedPlace> places;
-  for (const StepProduct& product : model_.products) {
-    if (product.kind != StepClass::space || product.space_use != SpaceUse::room || product.name.empty()) continue;
-    if (product.outline.size() < 3 || product.outline.size() > most_corners) continue;
-    Polygon2 outline;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : product.outline) {
-      sum += product.X_WP * p;
-      outline.emplace_back((product.X_WP * p).head<2>());
-    }
-    if (!sum.allFinite() || !is_simple(outline)) continue;
-    if (signed_area(outline) < 0.0) std::reverse(outline.begin(), outline.end());
-    places.push_back({interior_point(outline), (product.X_WP * product.outline.front()).z(), product.name});
-  }
-  return places;
-}
-
 void Interpreter::add_missing_rooms() {
   const std::vector<Room> given = building_.rooms;
   const std::vector<NamedPlace> places = places_of_outlines();
@@ -334,6 +314,7 @@ Building Interpreter::finish() {
            });
   });
   add_missing_rooms();
+  add_rooms_of_outlines();
   add_materials();
   warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {

@@ -8,6 +8,7 @@
 
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/formats/ifc/step/step_model.h"
+#include "bim/model/door_edges.h"
 
 namespace plumbline::bim {
 
@@ -40,8 +41,21 @@ class Interpreter {
   /// Storey heights and kinds from what stands on them; rooms from walls in a file without spaces; materials; canonical
   /// order of all lists.
   [[nodiscard]] Building finish();
+  /// Doors that stand in no wall.
+  [[nodiscard]] const std::vector<FreeDoor>& free_doors() const { return free_doors_; }
 
  private:
+  /// What an opening cuts out of a wall.
+  struct Cut {
+    const StepProduct* product = nullptr;
+    const StepProduct* filling = nullptr;
+    int wall = -1;
+    std::vector<Solid> solids;
+    std::string id;
+    bool of_part = false;  ///< the file has it cut a part of the wall
+  };
+  [[nodiscard]] bool join_cut(const Cut& cut, std::vector<Cut>& cuts) const;
+
   [[nodiscard]] int storey_index(const StepProduct& product, double z0_m) const;
   [[nodiscard]] const StepProduct* find(std::int64_t step_id) const;
   /// True for the product itself and all it is a part of.
@@ -76,7 +90,7 @@ class Interpreter {
   /// Adds a wall with its body; one whose body is bent, as its straight pieces.
   void add_straightened(const StepProduct& product, Wall wall);
   [[nodiscard]] std::vector<int> host_walls(const StepProduct& opening, const std::vector<Solid>& solids) const;
-  void add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids, const StepProduct* filling);
+  void add_opening(const Cut& cut);
   void fill(Opening& opening, const StepProduct& filling) const;
   [[nodiscard]] bool fill_empty_opening(const StepProduct& filling, const Solid& body);
   [[nodiscard]] bool open_wall_for(const StepProduct& filling, const Solid& body);
@@ -99,8 +113,11 @@ class Interpreter {
     Eigen::Vector2d inner;
     double z_m = 0.0;
     std::string name;
+    Polygon2 outline;
+    const StepProduct* space = nullptr;
   };
   [[nodiscard]] std::vector<NamedPlace> places_of_outlines() const;
+  void add_rooms_of_outlines();
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);
@@ -117,6 +134,7 @@ class Interpreter {
   std::map<std::int64_t, std::vector<int>> walls_;                   ///< indices by STEP number
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
   std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut
+  std::vector<FreeDoor> free_doors_;
   std::set<std::int64_t> taken_;  ///< STEP numbers of parts that went into their whole
 };
 

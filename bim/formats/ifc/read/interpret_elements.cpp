@@ -120,6 +120,10 @@ void Interpreter::add_rooms() {
       left_out.push_back(product.name + (product.space_use == SpaceUse::gross ? " (gross area)" : " (outside)"));
       continue;
     }
+    if (product.body.empty() && !product.outline.empty()) {
+      warn(product, "no_body", "has no body that can be read; its outline on the plan says where it is");
+      continue;
+    }
     const Solid body = body_of(product);
     if (body.triangles.empty()) continue;
     const std::vector<PolygonWithHoles2> outline = footprint(body);

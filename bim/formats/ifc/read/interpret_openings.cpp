@@ -87,11 +87,12 @@ void Interpreter::fill(Opening& opening, const StepProduct& filling) const {
   opening.filling_id = filling.id;
 }
 
-void Interpreter::add_opening(const StepProduct& product, int wall, const std::vector<Solid>& solids,
-                              const StepProduct* filling) {
+void Interpreter::add_opening(const Cut& cut) {
+  const auto& [product_of, filling, wall, solids, id, of_part] = cut;
+  const StepProduct& product = *product_of;
   const WallBox box = box_within(building_.walls[static_cast<std::size_t>(wall)], solids);
   Opening opening;
-  opening.id = product.id;
+  opening.id = id;
   opening.step_id = product.step_id;
   opening.wall = wall;
   opening.kind = OpeningKind::opening_void;
@@ -121,8 +122,35 @@ void Interpreter::add_opening(const StepProduct& product, int wall, const std::v
   building_.openings.push_back(std::move(opening));
 }
 
+/// Joins what an opening of a part cuts with what another cuts in the same place of the same wall. The filled one goes
+/// on, otherwise that of the wall itself, otherwise the first.
+bool Interpreter::join_cut(const Cut& cut, std::vector<Cut>& cuts) const {
+  constexpr double same_share = 0.8;
+  const Wall& wall = building_.walls[static_cast<std::size_t>(cut.wall)];
+  const WallBox box = box_within(wall, cut.solids);
+  for (Cut& other : cuts) {
+    if (other.wall != cut.wall || !(other.of_part || cut.of_part) ||
+        (other.filling != nullptr && cut.filling != nullptr))
+      continue;
+    const WallBox there = box_within(wall, other.solids);
+    if (overlap(box.along, there.along) < same_share * std::max(box.along.length(), there.along.length()) ||
+        overlap(box.height, there.height) < same_share * std::max(box.height.length(), there.height.length()))
+      continue;
+    const bool takes_over = cut.filling != nullptr || (other.filling == nullptr && other.of_part && !cut.of_part);
+    Cut joined = takes_over ? cut : other;
+    const Cut& rest = takes_over ? other : cut;
+    const Interval deep = box_in(wall, joined.solids).across, more = box_in(wall, rest.solids).across;
+    if (more.low < deep.low - config_.grid_m || more.high > deep.high + config_.grid_m)
+      joined.solids.insert(joined.solids.end(), rest.solids.begin(), rest.solids.end());
+    other = std::move(joined);
+    return true;
+  }
+  return false;
+}
+
 void Interpreter::add_openings() {
   const auto filling_of = fillings(model_);
+  std::vector<Cut> cuts;
   for (const StepProduct& product : model_.products) {
     if (product.kind != StepClass::opening) continue;
     const std::vector<Solid> solids = solids_of(product);
@@ -134,12 +162,15 @@ void Interpreter::add_openings() {
     if (walls.empty()) cutters_[product.host].push_back(&product);
     const auto filling = filling_of.find(product.step_id);
     for (const int wall : walls) {
-      add_opening(product, wall, solids, filling == filling_of.end() ? nullptr : filling->second);
+      Cut cut{&product,   filling == filling_of.end() ? nullptr : filling->second,
+              wall,       solids,
+              product.id, !walls_.contains(product.host)};
       // An opening through several leaves of a wall is one in each.
-      if (wall != walls.front())
-        building_.openings.back().id += "/" + building_.walls[static_cast<std::size_t>(wall)].id;
+      if (wall != walls.front()) cut.id += "/" + building_.walls[static_cast<std::size_t>(wall)].id;
+      if (!join_cut(cut, cuts)) cuts.push_back(std::move(cut));
     }
   }
+  for (const Cut& cut : cuts) add_opening(cut);
 }
 
 /// The empty opening of a wall that the filling stands in; of several the one it fills best, then the first.
@@ -210,17 +241,19 @@ void Interpreter::add_unlinked_fillings() {
       warn(product, "second_filling", "its opening is filled by another door or window already");
       continue;
     }
+    const StepProduct* hole = find(product.host);
     Solid body = joined(uncut_solids(product));
+    if (door && body.triangles.empty() && hole != nullptr && !hole->body.empty()) body = joined(solids_of(*hole));
     if (body.triangles.empty()) {
       warn(product, "no_body", "has neither an opening nor a body, and is left out");
       continue;
     }
     // An opening without a body, or in nothing, says no more than none.
-    const StepProduct* hole = find(product.host);
     const bool in_other = hole != nullptr && !hole->body.empty() && find(hole->host) != nullptr;
     if (!in_other && (fill_empty_opening(product, body) || open_wall_for(product, body))) continue;
     if (door) {
       warn(product, "door_without_wall", "stands in no wall, and is left open");
+      free_doors_.push_back({product.id, std::move(body)});
     } else {
       add_obstacle(product, in_other ? "roof_window" : "window", "glass", std::move(body));
     }

@@ -148,7 +148,9 @@ class WrittenReader {
         } else if (const auto edge = edges.find(element); edge != edges.end()) {
           const std::vector<Polygon2> line = products_.curves(edge->second, "Axis");
           if (line.size() != 1) fail(edge->second, "an open edge has a line");
-          room.virtual_edges.push_back({line[0].front(), line[0].back(), named(edge->second, "Beyond", room_ids_)});
+          const bool door = edge->second.properties.contains("Door");
+          room.virtual_edges.push_back({line[0].front(), line[0].back(), named(edge->second, "Beyond", room_ids_),
+                                        door ? edge->second.text("Door") : ""});
         }
       }
     }

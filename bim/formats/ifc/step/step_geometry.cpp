@@ -9,14 +9,17 @@
 #include <ifcpp/IFC4/include/IfcCsgSolid.h>
 #include <ifcpp/IFC4/include/IfcDirection.h>
 #include <ifcpp/IFC4/include/IfcElementarySurface.h>
+#include <ifcpp/IFC4/include/IfcExtrudedAreaSolidTapered.h>
 #include <ifcpp/IFC4/include/IfcHalfSpaceSolid.h>
 #include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcPolygonalBoundedHalfSpace.h>
 #include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcRevolvedAreaSolid.h>
+#include <ifcpp/IFC4/include/IfcRevolvedAreaSolidTapered.h>
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/IFC4/include/IfcSphere.h>
+#include <ifcpp/IFC4/include/IfcSurfaceCurveSweptAreaSolid.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
@@ -147,6 +150,11 @@ struct StepGeometry::Impl {
     if (const auto faces = std::dynamic_pointer_cast<IfcPolygonalFaceSet>(item)) {
       return add({polygonal_facets(*faces, unit_m, *diagnostics)}, *item, X, shapes);
     }
+    if (std::dynamic_pointer_cast<IfcSurfaceCurveSweptAreaSolid>(item))
+      return report("an IfcSurfaceCurveSweptAreaSolid is read along straight lines on a plane only; it is left out");
+    if (std::dynamic_pointer_cast<IfcExtrudedAreaSolidTapered>(item) ||
+        std::dynamic_pointer_cast<IfcRevolvedAreaSolidTapered>(item))
+      report(std::string(item->className()) + " whose profiles are bent or differ in corners keeps its first profile");
     const auto data = std::make_shared<ItemShapeData>();
     const auto& solids = converter.getSolidConverter();
     if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {

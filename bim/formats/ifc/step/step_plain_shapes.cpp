@@ -12,7 +12,9 @@
 #include "bim/formats/ifc/step/step_conics.h"
 #include "bim/formats/ifc/step/step_edits.h"
 #include "bim/formats/ifc/step/step_entities.h"
+#include "bim/formats/ifc/step/step_ring_body.h"
 #include "bim/formats/ifc/step/step_tapered.h"
+#include "bim/formats/ifc/step/step_units.h"
 
 namespace plumbline::bim {
 namespace {
@@ -22,9 +24,11 @@ using Kind = StepValue::Kind;
 constexpr std::string_view operator_type = "IFCCARTESIANTRANSFORMATIONOPERATOR",
                            extrusion_type = "IFCEXTRUDEDAREASOLID", composite_type = "IFCCOMPOSITEPROFILEDEF",
                            mirrored_type = "IFCMIRROREDPROFILEDEF", girder_type = "IFCASYMMETRICISHAPEPROFILEDEF",
-                           block_type = "IFCBLOCK", pyramid_type = "IFCRECTANGULARPYRAMID";
-constexpr std::array<std::string_view, 4> swept_types{
-    extrusion_type, "IFCREVOLVEDAREASOLID", "IFCFIXEDREFERENCESWEPTAREASOLID", "IFCSURFACECURVESWEPTAREASOLID"};
+                           block_type = "IFCBLOCK", pyramid_type = "IFCRECTANGULARPYRAMID",
+                           tapered_revolution_type = "IFCREVOLVEDAREASOLIDTAPERED",
+                           surface_sweep_type = "IFCSURFACECURVESWEPTAREASOLID";
+constexpr std::array<std::string_view, 4> swept_types{extrusion_type, "IFCREVOLVEDAREASOLID",
+                                                      "IFCFIXEDREFERENCESWEPTAREASOLID", surface_sweep_type};
 
 /// Part of a direction across others, of length 1; nullopt where nothing of it is.
 std::optional<Eigen::Vector3d> across(Eigen::Vector3d v, const std::vector<Eigen::Vector3d>& others) {
@@ -75,6 +79,12 @@ class PlainShapes {
       take_girder(entity);
     } else if (entity.type == block_type || entity.type == pyramid_type) {
       take_cornered(entity);
+    } else if (entity.type == tapered_revolution_type) {
+      if (!radian_) radian_ = assigned_unit(entities_, "PLANEANGLEUNIT").value_or(1.0);
+      take_ring_body(entity, tapered_revolution(entities_, entities_.attributes(entity), *radian_));
+    } else if (entity.type == surface_sweep_type &&
+               take_ring_body(entity, sweep_on_plane(entities_, entities_.attributes(entity)))) {
+      return;
     } else if (entity.type.starts_with(extrusion_type) ||
                std::find(swept_types.begin(), swept_types.end(), entity.type) != swept_types.end()) {
       take_swept(entity);
@@ -228,7 +238,7 @@ class PlainShapes {
     const bool tapered = entity.type.ends_with("TAPERED");
     if (tapered && entity.type.starts_with(extrusion_type))
       if (const std::optional<TaperedBody> body = tapered_body(entities_, values))
-        return edits_.replace(entity, facets(*body));
+        return edits_.replace(entity, facets({{body->start, body->end}}));
     if (composite && !tapered && collect_parts(values.at(0), parts) && !parts.empty()) {
       std::vector<std::string> solids;
       for (const std::string& part : parts) {
@@ -240,6 +250,17 @@ class PlainShapes {
     if (changed) edits_.replace(entity, joined(entity, arguments));
   }
 
+  /// False where there is none, or the file has too many of them.
+  bool take_ring_body(const StepEntities::Entity& entity, const std::optional<RingBody>& body) {
+    constexpr std::size_t entities_per_corner = 7, most_in_all = 10 * RingBody::most_corners;
+    if (!body) return false;
+    const std::size_t corners = body->rings.size() * body->rings.front().size();
+    if (ring_corners_ + corners > most_in_all || !edits_.has_room(entities_per_corner * corners + 2)) return false;
+    ring_corners_ += corners;
+    edits_.replace(entity, facets(*body));
+    return true;
+  }
+
   std::string face(const std::vector<std::string>& corners) {
     std::string list;
     for (const std::string& corner : corners) list += (list.empty() ? "" : ",") + corner;
@@ -247,8 +268,8 @@ class PlainShapes {
     return edits_.add("IFCFACE((" + bound + "))");
   }
 
-  /// IFC++ takes a tapered extrusion for a prism.
-  std::string facets(const TaperedBody& body) {
+  /// IFC++ takes tapered bodies for such that keep their profile, and turns profiles on a surface.
+  std::string facets(const RingBody& body) {
     const auto points = [&](const std::vector<Eigen::Vector3d>& corners) {
       std::vector<std::string> written;
       for (const Eigen::Vector3d& p : corners)
@@ -256,14 +277,22 @@ class PlainShapes {
                                      "," + StepEdits::real(p.z()) + "))"));
       return written;
     };
-    std::vector<std::string> start = points(body.start), end = points(body.end);
-    std::string faces = face(end);
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      const std::size_t k = (i + 1) % start.size();
-      faces += "," + face({start[i], start[k], end[k]}) + "," + face({start[i], end[k], end[i]});
+    std::vector<std::vector<std::string>> rings;
+    for (const std::vector<Eigen::Vector3d>& ring : body.rings) rings.push_back(points(ring));
+    std::string faces;
+    const auto add = [&](const std::vector<std::string>& corners) {
+      faces += (faces.empty() ? "" : ",") + face(corners);
+    };
+    if (!body.closed) add(rings.back());
+    for (std::size_t ring = 0; ring + (body.closed ? 0 : 1) < rings.size(); ++ring) {
+      const std::vector<std::string>&start = rings[ring], &end = rings[(ring + 1) % rings.size()];
+      for (std::size_t i = 0; i < start.size(); ++i) {
+        const std::size_t k = (i + 1) % start.size();
+        add({start[i], start[k], end[k]});
+        add({start[i], end[k], end[i]});
+      }
     }
-    std::reverse(start.begin(), start.end());
-    faces += "," + face(start);
+    if (!body.closed) add({rings.front().rbegin(), rings.front().rend()});
     return "IFCFACETEDBREP(" + edits_.add("IFCCLOSEDSHELL((" + faces + "))") + ")";
   }
 
@@ -286,14 +315,17 @@ class PlainShapes {
 
   StepEntities entities_;
   StepEdits edits_;
-  std::size_t composites_ = 0;  ///< seen so far, as often as they are referred to
+  std::optional<double> radian_;  ///< of the file's unit of angle, once it is needed
+  std::size_t ring_corners_ = 0;  ///< written so far
+  std::size_t composites_ = 0;    ///< seen so far, as often as they are referred to
 };
 
 }  // namespace
 
 std::string with_plain_shapes(const std::string& text, const std::string& file) {
-  constexpr std::array<std::string_view, 7> types{operator_type, extrusion_type, composite_type, mirrored_type,
-                                                  girder_type,   block_type,     pyramid_type};
+  constexpr std::array<std::string_view, 9> types{
+      operator_type, extrusion_type, composite_type,          mirrored_type,     girder_type,
+      block_type,    pyramid_type,   tapered_revolution_type, surface_sweep_type};
   const bool any =
       std::any_of(types.begin(), types.end(), [&](std::string_view t) { return text.find(t) != std::string::npos; });
   return any ? PlainShapes(text, file).read() : text;

@@ -120,7 +120,7 @@ struct NewClass {
   std::size_t attributes = 0;  ///< of the known class
 };
 
-constexpr std::string_view proxy = "IFCBUILDINGELEMENTPROXY", building = "IFCBUILDING";
+constexpr std::string_view proxy = "IFCBUILDINGELEMENTPROXY", building = "IFCBUILDING", storey = "IFCBUILDINGSTOREY";
 
 /// Classes of IFC4X3 [iso2024] that IFC4 does not have and that may hold or be a part of a building.
 constexpr std::array<NewClass, 33> new_classes{{
@@ -176,15 +176,27 @@ std::string known_tessellation(std::string_view type, const std::vector<std::str
   return known;
 }
 
-/// What an entity of IFC4X3 is in IFC4; empty where it is the same.
-std::string known_entity(std::string_view type, const std::vector<std::string_view>& items) {
+/// Whether a part of a facility divides it upwards, as storeys do. A plain one may leave open how it divides it.
+bool is_level(std::string_view type, const std::vector<std::string_view>& items) {
+  if (!type.ends_with("PART") && !type.ends_with("PARTCOMMON")) return false;
+  const auto says = [&](std::string_view how) {
+    return std::any_of(items.begin(), items.end(),
+                       [&](std::string_view item) { return item.find(how) != std::string_view::npos; });
+  };
+  if (says(".VERTICAL.")) return true;
+  return type.starts_with("IFCFACILITYPART") && !says(".LATERAL.") && !says(".LONGITUDINAL.") && !says(".REGION.");
+}
+
+/// What an entity of IFC4X3 is in IFC4; empty where it is the same. `levels`: parts of facilities are storeys.
+std::string known_entity(std::string_view type, const std::vector<std::string_view>& items, bool levels) {
   const auto found =
       std::find_if(new_classes.begin(), new_classes.end(), [&](const NewClass& row) { return row.type == type; });
   if (found == new_classes.end()) return known_tessellation(type, items);
-  std::string known = std::string(found->known) + "(";
-  for (std::size_t i = 0; i < found->attributes; ++i) {
+  const NewClass row = levels && is_level(type, items) ? NewClass{type, storey, 9, 10} : *found;
+  std::string known = std::string(row.known) + "(";
+  for (std::size_t i = 0; i < row.attributes; ++i) {
     if (i > 0) known += ',';
-    known += i < found->shared && i < items.size() ? std::string(items[i]) : "$";
+    known += i < row.shared && i < items.size() ? std::string(items[i]) : "$";
   }
   return known + ")";
 }
@@ -214,10 +226,12 @@ std::string with_known_classes(const std::string& text, const StepText& checked,
   if (!checked.schema.starts_with("IFC4X")) return text;
   const StepEntities entities(text, file);
   Edits edits(text);
+  const bool levels = std::none_of(entities.all().begin(), entities.all().end(),
+                                   [](const StepEntities::Entity& entity) { return entity.type == storey; });
   for (const StepEntities::Entity& entity : entities.all()) {
     if (!may_differ(entity.type)) continue;
     const Attributes attributes = split(entity.attributes);
-    const std::string known = known_entity(entity.type, attributes.items);
+    const std::string known = known_entity(entity.type, attributes.items, levels);
     if (known.empty()) continue;
     const char* begin = entity.type.data();
     const auto length = static_cast<std::size_t>(entity.attributes.data() + attributes.end - begin);

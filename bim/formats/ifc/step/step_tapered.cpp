@@ -100,19 +100,23 @@ std::optional<std::vector<Eigen::Vector2d>> straight_profile(const StepEntities&
   return corners_of(entities, profile, 0);
 }
 
+Eigen::Affine3d frame_at(const StepEntities& entities, const StepValue& placement) {
+  Eigen::Affine3d X = Eigen::Affine3d::Identity();
+  if (placement.kind != Kind::reference) return X;
+  const StepValue place = entities.attributes(placement, "IFCAXIS2PLACEMENT3D");
+  const Eigen::Vector3d z = direction_of(entities, place.at(1), Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d given = direction_of(entities, place.at(2), Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d x = (given - given.dot(z) * z).normalized();
+  X.linear() << x, z.cross(x), z;
+  X.translation() = cartesian_point(entities, place.at(0));
+  return X;
+}
+
 std::optional<TaperedBody> tapered_body(const StepEntities& entities, const StepValue& attributes) {
   const std::optional<Corners> start = straight_profile(entities, attributes.at(0)),
                                end = straight_profile(entities, attributes.at(4));
   if (!start || !end || start->size() != end->size()) return std::nullopt;
-  Eigen::Affine3d X = Eigen::Affine3d::Identity();
-  if (attributes.at(1).kind == Kind::reference) {
-    const StepValue place = entities.attributes(attributes.at(1), "IFCAXIS2PLACEMENT3D");
-    const Eigen::Vector3d z = direction_of(entities, place.at(1), Eigen::Vector3d::UnitZ()).normalized();
-    const Eigen::Vector3d given = direction_of(entities, place.at(2), Eigen::Vector3d::UnitX());
-    const Eigen::Vector3d x = (given - given.dot(z) * z).normalized();
-    X.linear() << x, z.cross(x), z;
-    X.translation() = cartesian_point(entities, place.at(0));
-  }
+  const Eigen::Affine3d X = frame_at(entities, attributes.at(1));
   const Eigen::Vector3d along =
       direction_of(entities, attributes.at(2), Eigen::Vector3d::UnitZ()).normalized() * attributes.at(3).as_number();
   TaperedBody body;

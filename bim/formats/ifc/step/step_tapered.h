@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
@@ -13,6 +13,9 @@ namespace plumbline::bim {
 /// I-shapes without their roundings, closed polylines, and profiles derived from these.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> straight_profile(const StepEntities& entities,
                                                                            const StepValue& profile);
+
+/// An IfcAxis2Placement3D; identity for none.
+[[nodiscard]] Eigen::Affine3d frame_at(const StepEntities& entities, const StepValue& placement);
 
 /// A body between two outlines with as many corners, in the file's units.
 struct TaperedBody {

@@ -86,7 +86,9 @@ void ElementWriter::add_virtual_edge(const Room& room, int space, const VirtualE
   const std::string name = room.id + "/open" + std::to_string(count);
   const int number = document_.add_product("IFCVIRTUALELEMENT", {"virtual", name, name, room.storey}, shape, {none});
   document_.contain(number, room.storey);
-  document_.add_properties(number, "Plumbline_VirtualEdge", {room_property("Beyond", edge.room)});
+  std::vector<StepProperty> properties = {room_property("Beyond", edge.room)};
+  if (!edge.door.empty()) properties.push_back(text_property("Door", edge.door));
+  document_.add_properties(number, "Plumbline_VirtualEdge", properties);
   document_.relate("IFCRELSPACEBOUNDARY",
                    {ref(space), ref(number), none, ".VIRTUAL.", edge.room < 0 ? ".NOTDEFINED." : ".INTERNAL."});
 }

@@ -145,6 +145,24 @@ TEST(Spaces, WithoutABodyNameTheRoomThatTheyLieIn) {
   EXPECT_GT(middles.at("east"), 4.0);
 }
 
+TEST(Spaces, WithoutABodyAreRoomsByTheirOutlinesBesideOthersWithOne) {
+  for (const bool box : {true, false}) {
+    Sketch sketch;
+    two_rooms(sketch);
+    const std::string outline = box ? sketch.add("IFCBOUNDINGBOX(" + sketch.point(4, 0, 0) + ",4.,6.,2.8)")
+                                    : sketch.polyline({{4, 0}, {8, 0}, {8, 6}, {4, 6}});
+    sketch.bare_space("office", box ? "Box" : "FootPrint", outline);
+    sketch.bare_space("kitchen", "Body", sketch.box(0.1, 0.1, 0, 3.85, 5.9, 2.8));
+    const Building building = read(sketch);
+    ASSERT_EQ(building.rooms.size(), 2u);
+    const Room& office = building.rooms[building.rooms[0].name == "office" ? 0 : 1];
+    EXPECT_EQ(office.name, "office");
+    EXPECT_NEAR(office.area_m2(), 3.75 * 5.8, 1e-6) << "to the faces of the walls";
+    EXPECT_NEAR(office.z1_m, 3.0, 1e-6);
+    EXPECT_EQ(count(building, "inferred_room"), 1);
+  }
+}
+
 TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
   Sketch sketch;
   sketch.storey(0);

@@ -320,6 +320,34 @@ TEST(Schema, Ifc4x3ReadsWithItsNewClasses) {
   EXPECT_EQ(warnings_of(building, "unknown_class"), 1);
 }
 
+/// Two levels as parts of the building; one part more along it is none.
+TEST(Schema, PartsOfAFacilityAreStoreysWhereTheyDivideItUpwards) {
+  Sketch sketch;
+  sketch.schema = "IFC4X3_ADD2";
+  for (const double z : {0.0, 3.0}) {
+    std::string inside;
+    const auto add = [&](const std::string& id) { inside += (inside.empty() ? "" : ",") + id; };
+    add(sketch.slab({{0, 0}, {6, 0}, {6, 4}, {0, 4}}, z - 0.2, z));
+    for (const double y : {0.0, 4.0})
+      add(sketch.element("IFCWALL", sketch.wall_shape(sketch.box(0, y - 0.1, z, 6, y + 0.1, z + 2.8), 6), "$,$"));
+    const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, z) + ")");
+    const std::string level =
+        sketch.rooted("IFCFACILITYPARTCOMMON", "'level " + std::to_string(std::lround(z)) + "',$,$," + at +
+                                                   ",$,$,.ELEMENT.,.VERTICAL.,.NOTDEFINED.");
+    sketch.rooted("IFCRELAGGREGATES", "$,$," + sketch.building + ",(" + level + ")");
+    sketch.rooted("IFCRELCONTAINEDINSPATIALSTRUCTURE", "$,$,(" + inside + ")," + level);
+  }
+  const std::string side = sketch.rooted("IFCFACILITYPARTCOMMON", "'wing',$,$,$,$,$,.ELEMENT.,.LATERAL.,.SEGMENT.");
+  sketch.rooted("IFCRELAGGREGATES", "$,$," + sketch.building + ",(" + side + ")");
+  const Building building = read_sketch(sketch);
+  ASSERT_EQ(building.storeys.size(), 2u);
+  EXPECT_EQ(building.storeys[0].name, "level 0");
+  EXPECT_EQ(building.storeys[1].name, "level 3");
+  EXPECT_NEAR(building.storeys[1].elevation_m, 3.0, 1e-9);
+  EXPECT_EQ(warnings_of(building, "assumed_storey"), 0);
+  for (const Wall& wall : building.walls) EXPECT_EQ(wall.storey, wall.z0_m > 1.0 ? 1 : 0);
+}
+
 TEST(Schema, AHeaderThatContradictsTheEntitiesIsNotBelieved) {
   Sketch sketch = hut({});
   sketch.schema = "IFC2X3";
