@@ -242,6 +242,22 @@ TEST(Report, DrawsNoErrorWhereAMethodSaysThatItIsLost) {
   EXPECT_EQ(occurrences(page, "<polyline"), occurrences(render_report(sample()), "<polyline"));
 }
 
+TEST(Report, SaysWhatTheScenarioInjectedAndWhenAMethodFailedByIt) {
+  EXPECT_EQ(render_report(sample()).find("Injected faults"), std::string::npos);
+  ReportInput input = sample();
+  input.results.set("injected", Tree(Tree::List{Tree("the feet slip at 1 m/s"), Tree("dust & rain")}));
+  ReportMethod& m = input.methods.front();
+  for (std::size_t i = 42; i < 60; ++i) m.samples[i].lost = true;
+  m.failed_s = 4.2;
+  m.slip = SlipEpisode{4.0, 4.2};
+  const std::string page = render_report(input);
+  const std::size_t at = page.find("<b>Injected faults:</b> the feet slip at 1 m/s; dust &amp; rain</p>");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, page.find("<svg class=\"map\""));  // in the head of the page
+  EXPECT_NE(page.find("LOST at 18 of 101 scans, first at t = 4.2 s."), std::string::npos);
+  EXPECT_NE(page.find("The feet slipped from t = 4 s to 4.2 s; it first failed at t = 4.2 s."), std::string::npos);
+}
+
 TEST(Report, ShowsTheWallsItRecognised) {
   const std::string page = render_report(localized());
   EXPECT_EQ(occurrences(page, "class=\"plannedwall\""), 2U);
