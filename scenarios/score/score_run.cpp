@@ -197,7 +197,7 @@ Tree to_results(const IdentifiabilityAnswer& known) {
     places.push(Tree::map()
                     .set("t_s", left.t_s)
                     .set("distance_m", left.distance_m)
-                    .set("twins", left.aliases)
+                    .set("aliases", left.aliases)
                     .set("weak", left.marginal));
   return tree.set("places", std::move(places));
 }

@@ -22,7 +22,7 @@ TEST(Report, IsSelfContainedAndSaysWhatFailed) {
 
 TEST(Report, GivesBothAnswersAndWhatMethodsWereTold) {
   ReportInput input = sample();
-  const auto place = Tree::map().set("t_s", 0.0).set("distance_m", 0.0).set("twins", 1).set("weak", 0);
+  const auto place = Tree::map().set("t_s", 0.0).set("distance_m", 0.0).set("aliases", 1).set("weak", 0);
   Tree alone = Tree::map(), furnished = Tree::map();
   alone.set("identifiable", false).set("places", Tree(Tree::List{place}));
   furnished.set("identifiable", true).set("at_s", 0.0).set("at_m", 0.0).set("places", Tree(Tree::List{place}));
