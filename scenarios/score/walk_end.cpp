@@ -57,7 +57,7 @@ std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
   const std::vector<std::string> names = rooms_not_entered(run);
   const bool is_done = names.empty() && walked_m(run.record.truth_W) >= most_of_it * run.walk.planned_m;
   if (left_m < at_the_end_m && is_done) return warnings;
-  std::string text = "the walk ended when its time was up (" + tenths(run.scenario.duration_s) + " s)";
+  std::string text = std::string(cut_short_mark) + " (" + tenths(run.scenario.duration_s) + " s)";
   for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
     text += (i == 0 ? ", before it came to " : ", ") + names[i];
   if (names.size() > most_named) text += " and " + std::to_string(names.size() - most_named) + " more rooms";
