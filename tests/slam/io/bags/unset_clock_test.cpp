@@ -17,9 +17,8 @@ TEST(UnsetClock, LeavesOutWhatIsStampedBeforeItWasSet) {
   EXPECT_FALSE(clock.takes(5 * second_ns, "/points"));
   EXPECT_TRUE(clock.takes(today, "/points"));
   EXPECT_TRUE(clock.takes(today, "/odom"));
-  EXPECT_EQ(clock.left_out(),
-            std::vector<std::string>{
-                "/points: 1 of 2 records left out: stamped before 2000, when the clock was not set"});
+  EXPECT_EQ(clock.left_out(), std::vector<std::string>{
+                                  "/points: 1 of 2 records left out: stamped before 2000, when the clock was not set"});
 }
 
 TEST(UnsetClock, ASimulationsClockIsLeftAlone) {
