@@ -278,7 +278,8 @@ std::string method_cards(const ReportInput& input) {
            "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
            "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
            "\">only</button> <span class=\"verdict " + judged(input.results, method.name, results) + "\">" +
-           svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results) + after_slip(method)) + "</p><p>" +
+           svg::escape(verdict) + "</span></h3><p>" +
+           svg::escape(sentence(input, method, results) + after_slip(method)) + "</p><p>" +
            gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
   }
   return out;

@@ -57,7 +57,8 @@ void add_lidar(const sim::LidarConfig& lidar, std::vector<std::string>& said) {
   if (lidar.reflectivity_bias_m != 0.0)
     said.push_back("ranges err with the reflectivity by " + shown(std::abs(lidar.reflectivity_bias_m)) + " m a decade");
   if (lidar.incidence_bias_m != 0.0)
-    said.push_back("ranges err with the incidence by " + shown(std::abs(lidar.incidence_bias_m)) + " m at 10 m and 80°");
+    said.push_back("ranges err with the incidence by " + shown(std::abs(lidar.incidence_bias_m)) +
+                   " m at 10 m and 80°");
   if (lidar.warm_up_m != 0.0)
     said.push_back("ranges of the cold sensor err by " + shown(std::abs(lidar.warm_up_m)) + " m");
   if (lidar.airborne_per_m != 0.0)
