@@ -46,7 +46,7 @@ Tree tree_of(const MapShare& share) {
   Tree tree = Tree::map();
   tree.set("cells", share.cells).set("one_scan", share.one_scan).set("walk", share.walk).set("never", share.never);
   if (share.walk > 0) tree.set("walk_median_m", share.walk_median_m).set("walk_max_m", share.walk_max_m);
-  return tree.set("twins_max", share.aliases_max);
+  return tree.set("aliases_max", share.aliases_max);
 }
 
 Tree tree_of(const CellAnswer& answer) {
