@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/ifc/read/ifc.h"
@@ -19,10 +20,6 @@ namespace plumbline::bim {
 namespace {
 
 bool starts_with(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
-
-bool ends_with(std::string_view text, std::string_view tail) {
-  return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
-}
 
 /// The text from its first line that is neither blank nor a YAML comment.
 std::string_view first_content(std::string_view text) {
@@ -47,13 +44,13 @@ bool has_top_key(std::string_view text, const std::string& key) {
 /// A building of any kind, from its text.
 PlannedAndBuilt read_planned_and_built(const std::string& text, const std::string& path) {
   const std::string_view content = first_content(text);
-  const bool yaml = ends_with(path, ".yaml") || ends_with(path, ".yml");
+  const bool yaml = has_ending(path, ".yaml") || has_ending(path, ".yml");
   PlannedAndBuilt both;
   if (is_mesh_path(path)) {
     both.as_planned = read_mesh_world(text, path);
     both.as_built = both.as_planned;
     both.has_plan = false;
-  } else if (ends_with(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
+  } else if (has_ending(path, ".ifc") || starts_with(content, "ISO-10303-21")) {
     both.as_planned = read_ifc_text(text, path);
     both.as_built = both.as_planned;
   } else if (!starts_with(content, "plan:") && has_top_key(text, "levels:")) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string_view>
 
+#include "bim/config/file_ending.h"
 #include "bim/errors.h"
 #include "bim/mesh/palette.h"
 
@@ -110,7 +111,7 @@ std::unique_ptr<aiScene> scene_of(const Building& building, const BuildingMesh& 
 
 MeshFormat mesh_format(const std::string& path) {
   for (const Format& format : formats)
-    if (path.ends_with(format.ending)) return format.format;
+    if (has_ending(path, format.ending)) return format.format;
   throw InputError({path, 0, 0}, "a mesh is written as .glb, .obj or .ply");
 }
 

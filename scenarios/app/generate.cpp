@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/ifc/write/write_ifc.h"
@@ -105,7 +106,7 @@ std::string scenario_for(const bim::GeneratedPlan& generated, const std::string&
   return write_scenario(scenario);
 }
 
-bool is_ifc(const std::string& path) { return fs::path(path).extension() == ".ifc"; }
+bool is_ifc(const std::string& path) { return has_ending(path, ".ifc"); }
 
 void warn_of_missing_chairs(const std::vector<bim::FurniturePiece>& pieces, const GenerateOptions& options) {
   if (const std::optional<bim::Warning> missing = bim::chairs_missing(pieces, options.furniture))

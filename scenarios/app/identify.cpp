@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bim/config/file_ending.h"
 #include "bim/errors.h"
 #include "bim/formats/mesh/mesh_file.h"
 #include "scenarios/app/commands.h"
@@ -49,7 +50,7 @@ std::string page_path(const IdentifyOptions& options) {
 }
 
 bool is_scenario(const std::string& path) {
-  if (std::filesystem::path(path).extension() != ".yaml") return false;
+  if (!has_ending(path, ".yaml")) return false;
   return read_yaml(read_text_file(path), path).find("scenario") != nullptr;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "bim/config/file_ending.h"
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
 #include "scenarios/run/run_files.h"
@@ -60,11 +61,11 @@ void check_kind(const std::string& recording) {
   }
   if (slam::is_bag(recording)) return;
   for (const char* ending : {".mcap.zstd", ".mcap.zst", ".db3.zstd", ".db3.zst", ".bag.zst", ".mcap.lz4", ".bag.gz"})
-    if (recording.ends_with(ending))
+    if (has_ending(recording, ending))
       throw InputError({recording, 0, 0}, "is compressed as a whole; decompress it first (zstd -d, lz4 -d or gunzip)");
-  if (fs::path(recording).extension() == ".bag")
+  if (has_ending(recording, ".bag"))
     throw InputError({recording, 0, 0}, "is no ROS 1 bag; one begins with '#ROSBAG V2.0'");
-  if (fs::path(recording).extension() == ".mcap" || fs::path(recording).extension() == ".db3")
+  if (has_ending(recording, ".mcap") || has_ending(recording, ".db3"))
     throw InputError({recording, 0, 0}, "is no ROS 2 bag; an MCAP or an SQLite file would be right");
   if (slam::is_cloud_file(recording) || slam::is_bin_cloud(recording))
     throw InputError({recording, 0, 0}, "is one scan; give the folder that holds it and others");

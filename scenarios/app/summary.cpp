@@ -16,6 +16,7 @@
 #include "scenarios/report/report_builder.h"
 #include "scenarios/score/moment.h"
 #include "scenarios/score/walk_end.h"
+#include "scenarios/spec/injected_faults.h"
 
 namespace plumbline::scenarios {
 
@@ -130,6 +131,7 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
                 score.distance_m, score.duration_s, score.digest.c_str());
   std::string text = head;
   text += "planned walk: " + printable(walk_sentence(run.walk)) + "\n";
+  for (const std::string& fault : injected_faults(run.scenario)) text += "injected: " + printable(fault) + "\n";
   for (const std::string& warning : score::warnings_of_walk(run)) text += "warning: " + printable(warning) + "\n";
   if (!run.record.failure.empty()) text += "the scenario failed: " + printable(run.record.failure) + "\n";
   std::size_t width = 22;

@@ -45,14 +45,14 @@ std::vector<std::size_t> storeys_asked_for(const bim::Building& building, const 
 
 Tree tree_of(const MapShare& share) {
   Tree tree = Tree::map();
-  tree.set("cells", share.cells).set("one_look", share.one_scan).set("walk", share.walk).set("never", share.never);
+  tree.set("cells", share.cells).set("one_scan", share.one_scan).set("walk", share.walk).set("never", share.never);
   if (share.walk > 0) tree.set("walk_median_m", share.walk_median_m).set("walk_max_m", share.walk_max_m);
-  return tree.set("twins_max", share.aliases_max);
+  return tree.set("aliases_max", share.aliases_max);
 }
 
 Tree tree_of(const CellAnswer& answer) {
   Tree tree = Tree::map();
-  tree.set("twins", answer.aliases);
+  tree.set("aliases", answer.aliases);
   if (answer.walk_m) tree.set("walk_m", *answer.walk_m);
   return tree;
 }

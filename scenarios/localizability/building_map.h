@@ -60,7 +60,7 @@ struct MapShare {
 /// As pages call it.
 [[nodiscard]] std::string name_of(const bim::Storey& storey);
 
-/// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_look, walk, never, ...}, compass: {...}}],
+/// identify --json: {step_m, across, storeys: [{id, unknown: {cells, one_scan, walk, never, ...}, compass: {...}}],
 /// rooms: [...], cells: [...], alike: [{turned_deg, moved_m, places, rooms, element, missing, share, from}]} by the
 /// building alone; the same lists again in with_furniture, where that differs. without_places: [id] of storeys, if any.
 [[nodiscard]] Tree localizability_json(const RunBuilding& building, const BuildingMaps& maps);

@@ -122,7 +122,7 @@ Tree tree_of(const RunIdentifiability& run) {
   Tree tree = Tree::map();
   tree.set("identifiable", run.identifiable);
   if (run.identifiable_at_s) tree.set("at_s", *run.identifiable_at_s).set("at_m", *run.identifiable_at_m);
-  if (!run.steps.empty()) tree.set("twins", static_cast<int>(run.steps.front().alive.size()));
+  if (!run.steps.empty()) tree.set("aliases", static_cast<int>(run.steps.front().alive.size()));
   return tree;
 }
 

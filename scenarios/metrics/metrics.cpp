@@ -188,7 +188,7 @@ Tree to_results(const WithFurniture& known) {
   Tree tree = Tree::map();
   tree.set("identifiable", known.identifiable).set("evidence", to_string(known.evidence));
   if (known.at_s) tree.set("at_s", *known.at_s).set("at_m", known.at_m.value());
-  return tree.set("twins", known.aliases);
+  return tree.set("aliases", known.aliases);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ std::optional<double> marginal_since(const ReportInput& input) {
   std::optional<double> since;
   if (places == nullptr) return since;
   for (const Tree& left : places->as_list()) {
-    const bool marginal = number_of(&left, "twins") == number_of(&left, "weak");
+    const bool marginal = number_of(&left, "aliases") == number_of(&left, "weak");
     if (!marginal) since.reset();
     if (marginal && !since) since = number_of(&left, "t_s");
   }

@@ -45,7 +45,7 @@ PlotCurve consistent_poses(const ReportInput& input, double end_s) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double until = i + 1 < places.size() ? from_s + places[i + 1].find("t_s")->as_double() : end_s;
     for (double t = from_s + places[i].find("t_s")->as_double(); t <= until; t += step_s)
-      curve.points.emplace_back(t, 1.0 + places[i].find("twins")->as_double());
+      curve.points.emplace_back(t, 1.0 + places[i].find("aliases")->as_double());
   }
   return curve;
 }

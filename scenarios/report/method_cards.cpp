@@ -187,6 +187,13 @@ std::string wrong_stretch(const ReportInput& input, const ReportMethod& method) 
          ", the robot on " + name(true_storey(input, astray->t_s)) + ".";
 }
 
+/// The slip of the feet right before it failed, or nothing.
+std::string after_slip(const ReportMethod& method) {
+  if (!method.slip || !method.failed_s) return "";
+  return " The feet slipped from t = " + svg::number(method.slip->from_s, 1) + " s to " +
+         svg::number(method.slip->to_s, 1) + " s; it first failed at t = " + svg::number(*method.failed_s, 1) + " s.";
+}
+
 /// What happened, in a sentence or two.
 std::string sentence(const ReportInput& input, const ReportMethod& method, const Tree* results) {
   const std::string verdict = results == nullptr ? "" : text_of(*results, "verdict");
@@ -214,11 +221,14 @@ std::string sentence(const ReportInput& input, const ReportMethod& method, const
   if (found && matched && *found > *matched)
     text += "; " + svg::number(*found - *matched, 0) + " that it claims match none";
   const std::string wrong = wrong_stretch(input, method);
-  const auto lost = std::count_if(method.samples.begin(), method.samples.end(), [](const auto& s) { return s.lost; });
+  const auto is_lost = [](const ReportSample& sample) { return sample.lost; };
+  const auto lost = std::count_if(method.samples.begin(), method.samples.end(), is_lost);
   text += "." + wrong;
   if (lost > 0)
-    text += " It reported LOST at " + std::to_string(lost) + " of " + std::to_string(method.samples.size()) + " scans" +
-            (wrong.empty() ? "." : ", which do not count here.");
+    text += " It reported LOST at " + std::to_string(lost) + " of " + std::to_string(method.samples.size()) +
+            " scans, first at t = " +
+            svg::number(std::find_if(method.samples.begin(), method.samples.end(), is_lost)->t_s, 1) + " s" +
+            (wrong.empty() ? "." : "; these do not count here.");
   return text;
 }
 
@@ -268,7 +278,8 @@ std::string method_cards(const ReportInput& input) {
            "\"><h3><label><input type=\"checkbox\" checked data-layer=\"" + name + "\"> " + name +
            "</label> <button type=\"button\" class=\"only\" data-only=\"" + name +
            "\">only</button> <span class=\"verdict " + judged(input.results, method.name, results) + "\">" +
-           svg::escape(verdict) + "</span></h3><p>" + svg::escape(sentence(input, method, results)) + "</p><p>" +
+           svg::escape(verdict) + "</span></h3><p>" +
+           svg::escape(sentence(input, method, results) + after_slip(method)) + "</p><p>" +
            gates_sentence(input, method.name) + "</p><p id=\"now-" + name + "\"></p></div>";
   }
   return out;

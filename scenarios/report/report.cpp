@@ -85,6 +85,15 @@ std::string failed_gates(const ReportInput& input) {
   return failed == 0 ? "" : "<ul class=\"failed\" aria-label=\"gates that failed\">" + out + "</ul>";
 }
 
+/// What the scenario makes go wrong, so that nobody looks for it in a method.
+std::string injected(const Tree& results) {
+  std::string all;
+  const Tree* list = results.find("injected");
+  for (const Tree& fault : list == nullptr ? Tree::List() : list->as_list())
+    all += (all.empty() ? "" : "; ") + fault.as_string();
+  return all.empty() ? "" : "<p class=\"injected\"><b>Injected faults:</b> " + svg::escape(all) + "</p>";
+}
+
 std::string header(const ReportInput& input) {
   const GateCount gates = gates_of(input.results, "");
   const std::size_t count = gates.all, failed = gates.all - gates.passed;
@@ -109,7 +118,7 @@ std::string header(const ReportInput& input) {
   facts += told_text(input) + moved_text(input);
   return "<header><h1>" + svg::escape(text_of(input.results, "scenario")) + "</h1>" + badge + "<span class=\"facts\">" +
          facts + "</span>" + (input.has_replay ? "<a href=\"replay.html\">replay in three dimensions</a>" : "") +
-         "</header>" + failed_gates(input);
+         "</header>" + injected(input.results) + failed_gates(input);
 }
 
 std::string gates_table(const ReportInput& input) {

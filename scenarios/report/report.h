@@ -10,6 +10,7 @@
 #include "bim/plan/plan.h"
 #include "scenarios/report/deviation_list.h"
 #include "scenarios/report/obstacles.h"
+#include "scenarios/spec/injected_faults.h"
 #include "slam/io/estimate.h"
 
 namespace plumbline::scenarios {
@@ -101,6 +102,8 @@ struct ReportMethod {
   std::vector<HypothesisHistory> histories;
   std::vector<Eigen::Vector2d> other_hypotheses;  ///< (time in s, mass) of those without a history, together
   std::size_t hypotheses_left_out = 0;            ///< how many have none
+  std::optional<double> failed_s = {};            ///< when it was first lost or far off, on the run's clock
+  std::optional<SlipEpisode> slip = {};           ///< of the feet, within the second before
   std::vector<ReportWalls> recognised;
 };
 

@@ -151,6 +151,15 @@ void add_recognised(const FinishedRun& run, const MethodRecord& method, const sc
   if (last != converged && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
 }
 
+/// When a method was first lost or, by its score, wrong.
+std::optional<double> failed_s(const ReportMethod& method, const score::MethodScore& score) {
+  if (method.localization) return score.localization ? score.localization->failure_at_s : std::nullopt;
+  const auto failed = std::find_if(method.samples.begin(), method.samples.end(), [](const ReportSample& sample) {
+    return sample.lost || sample.error_m > score::TrajectoryRules().far_off_m;
+  });
+  return failed == method.samples.end() ? std::nullopt : std::optional(failed->t_s);
+}
+
 /// The storey of the start and those the robot was on, from the lowest up.
 std::string name_of(const bim::Storey& storey) { return storey.name.empty() ? storey.id : storey.name; }
 
@@ -219,6 +228,8 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
     shown.hypotheses_left_out = histories.left_out;
     for (HypothesisHistory& history : shown.histories) history.room = bim::room_name(rooms, history.room);
     add_recognised(run, method, score, shown);
+    shown.failed_s = failed_s(shown, score.methods[i]);
+    if (shown.failed_s) shown.slip = slip_before(run.scenario, *shown.failed_s);
     input.methods.push_back(std::move(shown));
   }
   return input;

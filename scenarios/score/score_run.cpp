@@ -11,6 +11,7 @@
 #include "scenarios/score/identifiability.h"
 #include "scenarios/score/moment.h"
 #include "scenarios/score/walk_end.h"
+#include "scenarios/spec/injected_faults.h"
 #include "scenarios/spec/method_names.h"
 
 namespace plumbline::scenarios::score {
@@ -196,7 +197,7 @@ Tree to_results(const IdentifiabilityAnswer& known) {
     places.push(Tree::map()
                     .set("t_s", left.t_s)
                     .set("distance_m", left.distance_m)
-                    .set("twins", left.aliases)
+                    .set("aliases", left.aliases)
                     .set("weak", left.marginal));
   return tree.set("places", std::move(places));
 }
@@ -278,6 +279,9 @@ std::string write_results(const FinishedRun& run, const RunScore& score) {
   if (const auto& moved = run.building->as_planned().moved_by)
     tree.set("building", Tree::map().set("moved_by_m", number_list(*moved)));
   tree.set("sensors", sensors_of(run.scenario));
+  Tree injected = Tree::list();
+  for (const std::string& fault : injected_faults(run.scenario)) injected.push(fault);
+  if (!injected.as_list().empty()) tree.set("injected", std::move(injected));
   if (run.building->plans_movables() || run.building->deviates()) tree.set("told", told_of(run));
   if (run.building->deviates()) tree.set("as_built", changes_of(run.building->variants()));
   if (score.identifiability) tree.set("identifiability", both_to_results(*score.identifiability));

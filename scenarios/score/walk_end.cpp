@@ -18,6 +18,8 @@ const bim::Room* room_named(const std::vector<bim::Room>& rooms, const std::stri
   return found == rooms.end() ? nullptr : &*found;
 }
 
+std::string tenths(double value) { return format_number(std::round(10.0 * value) / 10.0); }
+
 /// Names of the rooms of the route that the robot never was in.
 std::vector<std::string> rooms_not_entered(const FinishedRun& run) {
   std::vector<std::string> names;
@@ -55,12 +57,12 @@ std::vector<std::string> warnings_of_walk(const FinishedRun& run) {
   const std::vector<std::string> names = rooms_not_entered(run);
   const bool is_done = names.empty() && walked_m(run.record.truth_W) >= most_of_it * run.walk.planned_m;
   if (left_m < at_the_end_m && is_done) return warnings;
-  std::string text = "the walk ended when its time was up (" + format_number(run.scenario.duration_s) + " s)";
+  std::string text = std::string(cut_short_mark) + " (" + tenths(run.scenario.duration_s) + " s)";
   for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
     text += (i == 0 ? ", before it came to " : ", ") + names[i];
   if (names.size() > most_named) text += " and " + std::to_string(names.size() - most_named) + " more rooms";
   const double enough_s = walk_duration(run.walk.planned_m, run.walk.stairs_m, run.scenario.speed_mps);
-  warnings.push_back(text + "; `duration_s: " + format_number(std::max(enough_s, run.scenario.duration_s)) +
+  warnings.push_back(text + "; `duration_s: " + tenths(std::max(enough_s, run.scenario.duration_s)) +
                      "` would do for all of its route");
   return warnings;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "bim/config/file_ending.h"
 #include "bim/digest/digest.h"
 #include "bim/formats/mesh/mesh_file.h"
 #include "bim/load/foreign_file.h"
@@ -49,7 +50,7 @@ ScenarioText read_input(const std::string& path) {
   if (bim::is_mesh_path(path)) return default_scenario(path);
   const std::string text = read_text_file(path);
   bim::refuse_foreign_file(text, path);
-  if (is_ifc(text) || fs::path(path).extension() == ".ifc") return default_scenario(path);
+  if (is_ifc(text) || has_ending(path, ".ifc")) return default_scenario(path);
   const std::string kind = kind_of(text, path);
   if (kind == "plan") return default_scenario(path);
   if (kind == "scenario") return read_scenario(text, path);
@@ -148,6 +149,32 @@ std::shared_ptr<const ProcessTable> process_table(ScenarioText& text, const Over
   return std::make_shared<const ProcessTable>(table, processes, marks);
 }
 
+/// Why a method of this kind never has a metric, whatever the walk; empty where it may.
+std::string why_never(const std::string& metric, bool localizes) {
+  const auto is_of = [&](std::initializer_list<std::string_view> starts) {
+    return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) { return metric.starts_with(start); });
+  };
+  if (!localizes && is_of({"localization."})) return "it does not localize in the plan, as this metric asks";
+  if (localizes && is_of({"ate_", "rpe_", "drift_", "tracking.", "rooms.", "storeys.", "loops.", "segmentation."}))
+    return "it localizes in the plan, and this metric is of SLAM; `localization.*` would be right";
+  return {};
+}
+
+/// A gate that could only fail is refused before anything is walked.
+void check_gates_can_be_met(const ScenarioText& text, slam::MethodTable table) {
+  const Scenario& scenario = text.scenario;
+  const Tree* written = text.tree.is_map() ? text.tree.find("gates") : nullptr;
+  for (std::size_t i = 0; written != nullptr && i < scenario.gates.size(); ++i) {
+    const GateSpec& gate = scenario.gates[i];
+    const std::string why = why_never(gate.metric, needs_plan(gate.method, table));
+    if (why.empty() || i >= written->as_list().size()) continue;
+    const Tree& one = written->as_list()[i];
+    const Tree* metric = one.find("metric");
+    throw InputError(metric != nullptr ? metric->mark : one.mark,
+                     "'" + gate.method + "' never has '" + gate.metric + "': " + why);
+  }
+}
+
 /// Returns where each method is asked for.
 std::vector<Mark> resolve_methods(ScenarioText& text, const Overrides& overrides, bool has_plan,
                                   ResolvedScenario& resolved) {
@@ -164,6 +191,7 @@ std::vector<Mark> resolve_methods(ScenarioText& text, const Overrides& overrides
     throw InputError(marks[i],
                      "the gate's method '" + scenario.gates[i].method + "' is not one of the scenario's methods");
   }
+  check_gates_can_be_met(text, resolved.table);
   const auto kept = std::stable_partition(scenario.gates.begin(), scenario.gates.end(), asked);
   resolved.dropped_gates = static_cast<int>(scenario.gates.end() - kept);
   scenario.gates.erase(kept, scenario.gates.end());

@@ -33,7 +33,8 @@ itself.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
   and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, not a method.
 - `lidar: {preset: harsh}` and `faults: {preset: harsh}` add calibration and environment errors: range errors, dust,
-  clocks, mount, IMU, slipping feet. Each size is a key. Methods are not told of them. `results.json` names them.
+  clocks, mount, IMU, slipping feet. Each size is a key. Methods are not told of them. `results.json` and
+  the report name them.
 - `plumbline methods` lists the methods; a scenario that names none runs the default ones. A gate has either `max` or
   `min` and bounds one of the [metrics](metrics.md).
 - Methods get LiDAR, leg odometry and IMU. `NAME.lidar` in `methods` is the same method with LiDAR alone, and so are

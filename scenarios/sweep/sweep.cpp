@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
@@ -274,8 +276,11 @@ SweepTables write_tables(const Sweep& sweep, const SweepFolder& folder, const st
   write_file(out + "/table.csv", table_csv(cells));
   write_file(out + "/table.html", table_html(page, rows, cells));
   write_database(out + "/sweep.sqlite", rows, cells);
-  write_file(out + "/table.txt", text);
-  return {text, walk_notes(rows), refused_in(rows)};
+  std::vector<std::string> notes = walk_notes(rows);
+  std::string below = notes.empty() ? "" : "\n";
+  for (const std::string& note : notes) below += printable(note) + "\n";
+  write_file(out + "/table.txt", text + below);
+  return {text, std::move(notes), refused_in(rows)};
 }
 
 /// The result of a run among those of shards; empty where there is none of this input.

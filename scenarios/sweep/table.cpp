@@ -15,6 +15,7 @@
 #include "scenarios/metrics/metrics.h"
 #include "scenarios/report/svg.h"
 #include "scenarios/run/digest_log.h"
+#include "scenarios/score/walk_end.h"
 
 namespace plumbline::scenarios {
 
@@ -220,19 +221,23 @@ std::string walks_title(const SweepRow& row) {
 std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
   struct Walks {
     std::string title;
-    std::set<std::string> all, failed, warned;
-    std::string first_failure, first_warning;
+    std::set<std::string> all, failed, cut_short, warned;
+    std::string first_failure, first_cut, first_warning;
   };
   std::vector<Walks> groups;
   for (const SweepRow& row : rows) {
     const std::string title = walks_title(row);
     auto walks = std::find_if(groups.begin(), groups.end(), [&](const Walks& one) { return one.title == title; });
-    if (walks == groups.end()) walks = groups.insert(groups.end(), Walks{title, {}, {}, {}, {}, {}});
+    if (walks == groups.end()) walks = groups.insert(groups.end(), Walks{title, {}, {}, {}, {}, {}, {}, {}});
     walks->all.insert(row.seed);
     if (row.verdict == "failed" && walks->failed.insert(row.seed).second && walks->first_failure.empty())
       walks->first_failure = row.failure;
-    if (!row.warnings.empty() && walks->warned.insert(row.seed).second && walks->first_warning.empty())
-      walks->first_warning = row.warnings.front();
+    for (const std::string& warning : row.warnings) {
+      const bool is_cut = warning.starts_with(score::cut_short_mark);
+      std::string& first = is_cut ? walks->first_cut : walks->first_warning;
+      (is_cut ? walks->cut_short : walks->warned).insert(row.seed);
+      if (first.empty()) first = warning;
+    }
   }
   std::vector<std::string> notes;
   const auto note = [&](const Walks& walks, std::size_t count, const char* what, const std::string& first) {
@@ -243,6 +248,7 @@ std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows) {
   };
   for (const Walks& walks : groups) {
     note(walks, walks.failed.size(), "failed", walks.first_failure);
+    note(walks, walks.cut_short.size(), "cut short", walks.first_cut);
     note(walks, walks.warned.size(), "with a warning", walks.first_warning);
   }
   return notes;

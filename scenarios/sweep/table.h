@@ -33,7 +33,8 @@ struct SweepRow {
 /// Begins the failure of a run whose scenario is no input that can be run.
 inline constexpr std::string_view refused_mark = "refused: ";
 
-/// Of the walks that failed or have warnings: a line for each scenario, variant and start, with the first reason.
+/// Of the walks that failed, were cut short or have other warnings: a line for each scenario, variant and start, with
+/// the first reason.
 [[nodiscard]] std::vector<std::string> walk_notes(const std::vector<SweepRow>& rows);
 [[nodiscard]] bool is_refused(const SweepRow& row);
 /// "house, compass, {room: hall}": scenario, variant and start, as far as there are any.

@@ -96,6 +96,12 @@ TEST_F(BadInput, ScenarioKeysAndValues) {
          {"unknown metric 'ate'; did you mean 'ate_rmse_m', 'ate_aligned_rmse_m' or 'ate_final_rmse_m'?"});
   refuse(with(scenario_, "metric: ate_aligned_rmse_m", "metric: none_of_them"), plan_,
          {"unknown metric 'none_of_them'; docs/reference/metrics.md lists them"});
+  // Such a gate can only fail.
+  refuse(with(scenario_, "metric: ate_aligned_rmse_m, method: vgicp",
+              "metric: rooms.recall, method: s_graph_localization"),
+         plan_, {"short.yaml:15:", "'s_graph_localization' never has 'rooms.recall'", "of SLAM"});
+  refuse(with(scenario_, "metric: ate_aligned_rmse_m, method: vgicp", "metric: localization.ape_rmse_m, method: vgicp"),
+         plan_, {"short.yaml:15:", "'vgicp' never has 'localization.ape_rmse_m'", "does not localize"});
   write_file(folder_ / "short.yaml", with(scenario_, "method: vgicp", "method: vgipc"));
   refuse_file("short.yaml", {"short.yaml:15:", "unknown method 'vgipc'", "'vgicp'"}, {"--method", "truth"});
   write_file(folder_ / "short.yaml", with(scenario_, "odometry, vgicp", "odometry, vgcip"));

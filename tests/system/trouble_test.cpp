@@ -109,6 +109,10 @@ TEST_F(Trouble, AFallIsTheScenariosFailureNotAMethods) {
   EXPECT_EQ(results["failure"].get<std::string>().rfind("the robot fell at ", 0), 0U) << results["failure"];
   EXPECT_EQ(results["sensors"]["off_default"],
             nlohmann::json({"ground.friction: 0.05", "pushes.min_n: 400", "pushes.max_n: 500", "pushes.every_s: 1"}));
+  EXPECT_EQ(results["injected"],
+            nlohmann::json({"the ground's friction is 0.05", "the robot is pushed with up to 500 N every 1 s"}));
+  EXPECT_NE(read_file(folder_ / "out/report.html").find("<b>Injected faults:</b> the ground"), std::string::npos);
+  EXPECT_NE(outcome.out.find("injected: the ground's friction is 0.05\n"), std::string::npos) << outcome.out;
   for (const auto& [name, method] : results["methods"].items()) EXPECT_EQ(method["verdict"], "complete") << name;
   EXPECT_NE(read_file(folder_ / "out/report.html").find("the scenario failed</span> <span>the robot fell at "),
             std::string::npos);

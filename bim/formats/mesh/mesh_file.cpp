@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/formats/mesh/ply_check.h"
@@ -28,14 +28,10 @@ struct Format {
 constexpr std::array<Format, 5> formats{
     {{".obj", false}, {".dae", true}, {".glb", true}, {".ply", false}, {".stl", false}}};
 
-/// The format of a path, or nullptr. Some programs write endings in capitals.
+/// The format of a path, or nullptr.
 const Format* format_of(std::string_view path) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  for (const Format& format : formats) {
-    if (path.size() < format.ending.size()) continue;
-    const std::string_view tail = path.substr(path.size() - format.ending.size());
-    if (std::equal(tail.begin(), tail.end(), format.ending.begin(), same)) return &format;
-  }
+  for (const Format& format : formats)
+    if (has_ending(path, format.ending)) return &format;
   return nullptr;
 }
 

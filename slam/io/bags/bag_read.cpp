@@ -16,6 +16,7 @@
 #include "slam/io/bags/ros_message.h"
 #include "slam/io/bags/topic_clocks.h"
 #include "slam/io/bags/transform_odometry.h"
+#include "slam/io/bags/unset_clock.h"
 #include "slam/io/packets/point_units.h"
 
 namespace plumbline::slam {
@@ -52,9 +53,10 @@ class BagRecording final : public Recording {
 
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
-    for (const std::vector<std::string>& said : {source_->left_out(), scans_.left_out(topics_.points, "scans"),
-                                                 odometry_.left_out(topics_.odometry, "records"),
-                                                 imu_.left_out(topics_.imu, "records"), frames_.left_out("/tf_static")})
+    for (const std::vector<std::string>& said :
+         {source_->left_out(), clock_.left_out(), scans_.left_out(topics_.points, "scans"),
+          odometry_.left_out(topics_.odometry, "records"), imu_.left_out(topics_.imu, "records"),
+          frames_.left_out("/tf_static")})
       all.insert(all.end(), said.begin(), said.end());
     if (scan_frame_.others() > 0)
       all.push_back(topics_.points + " left out: " + scan_frame_.others_of(scans_.read(), "scans"));
@@ -99,8 +101,7 @@ class BagRecording final : public Recording {
     try {
       function();
     } catch (const InputError& error) {
-      const bool has_mark = std::string_view(error.what()).starts_with(mark_.file);
-      if (has_mark) throw;
+      if (std::string_view(error.what()).starts_with(mark_.file)) throw;
       throw InputError(mark_, error.what());
     }
   }
@@ -195,7 +196,6 @@ class BagRecording final : public Recording {
     }
   }
 
-  /// Until one says that no other is needed.
   void show_clouds(const std::function<bool(const PointCloud&)>& add) {
     messages_.select({topics_.points});
     OneFrame frame;
@@ -220,6 +220,7 @@ class BagRecording final : public Recording {
 
   void find_times() {
     unstamped_ = are_unstamped();
+    show_clouds([&](const PointCloud& cloud) { return clock_.add(cloud.stamp); });
     TimeBaseSearch search;
     show_clouds([&](const PointCloud& cloud) { return search.add(cloud); });
     SweepLengthSearch lengths(search.base());
@@ -314,7 +315,7 @@ class BagRecording final : public Recording {
     const BagTopic& topic = topic_of(message);
     if (is_cloud(topic.type)) {
       const ros::FramedCloud said = cloud_of(message);
-      if (!scan_frame_.takes(said.frame)) return;
+      if (!scan_frame_.takes(said.frame) || !clock_.takes(said.cloud.stamp, topics_.points)) return;
       CloudScan read = messages_.named(message, [&] { return read_scan(said.cloud, times_.times); });
       without_rings_ += read.rings_left_out ? 1 : 0;
       units_.add(read);
@@ -323,6 +324,7 @@ class BagRecording final : public Recording {
       scans_.add(read.scan, topics_.points);
     } else if (is_odometry(topic.type)) {
       if (const auto said = odometry_of(message)) {
+        if (!clock_.takes(said->X_OR.stamp, topics_.odometry)) return;
         clocks_.add_odometry(said->X_OR.stamp, message.time);
         take(*said);
       } else {
@@ -352,7 +354,7 @@ class BagRecording final : public Recording {
   void take(const ros::FramedImu& said, Nanoseconds recorded) {
     std::optional<Imu> record = imu_of(said);
     if (!record) unjoined_imu_ = said.frame;
-    if (!record) return;
+    if (!record || !clock_.takes(record->stamp, topics_.imu)) return;
     clocks_.add_imu(record->stamp, recorded);
     record->stamp = shifted(record->stamp);
     if (!gravity_) gravity_ = gravity_in(*record);
@@ -373,6 +375,7 @@ class BagRecording final : public Recording {
   AssumedTimes times_;
   PointUnits units_;
   TopicClocks clocks_;
+  UnsetClock clock_;
   bool unstamped_ = false;  ///< the clouds
   OneFrame scan_frame_, odometry_frame_;
   RecordQueue<Scan> scans_;
@@ -383,9 +386,8 @@ class BagRecording final : public Recording {
   std::optional<std::string> unjoined_imu_;  ///< frame that /tf_static does not join to R
   std::optional<Nanoseconds> first_scan_;    ///< when it began
   std::optional<Pose> X_OB_;
-  std::optional<double> gravity_;   ///< m/s^2 of the unit that the IMU's accelerations are in
-  std::int64_t early_ = 0;          ///< scans before the odometry
-  std::int64_t without_rings_ = 0;  ///< scans
+  std::optional<double> gravity_;               ///< m/s^2 of the unit that the IMU's accelerations are in
+  std::int64_t early_ = 0, without_rings_ = 0;  ///< scans before the odometry; scans
   bool started_ = false;
 };
 

@@ -2,8 +2,11 @@
 #include "slam/io/bags/frame_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <numbers>
 
 #include "slam/io/bags/record_queue.h"
 
@@ -17,6 +20,19 @@ bool is_apart(const Pose& a, const Pose& b, double most_m, double most_rad) {
   return (a.t - b.t).norm() > most_m || a.q.angularDistance(b.q) > most_rad;
 }
 
+/// "(0.2, 0, 0) m with yaw 90, pitch 0, roll 0 deg"
+std::string words_of(const Pose& X) {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  const Eigen::Matrix3d R = X.q.toRotationMatrix();
+  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), roll = std::atan2(R(2, 1), R(2, 2));
+  std::array<char, 160> text{};
+  const auto plain = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value; };
+  std::snprintf(text.data(), text.size(), "(%.4g, %.4g, %.4g) m with yaw %.4g, pitch %.4g, roll %.4g deg",
+                plain(X.t.x()), plain(X.t.y()), plain(X.t.z()), plain(degrees * X.yaw()), plain(degrees * pitch),
+                plain(degrees * roll));
+  return text.data();
+}
+
 }  // namespace
 
 std::string plain_frame(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
@@ -25,15 +41,19 @@ void FrameTree::add(const ros::Transform& transform) {
   constexpr double rounding_m = 1e-4, rounding_rad = 1e-4;
   const std::string child = plain_frame(transform.child), parent = plain_frame(transform.parent);
   const auto [joint, is_new] = mounts_[child].try_emplace(parent, transform.X);
-  if (!is_new && is_apart(joint->second, transform.X, rounding_m, rounding_rad)) changed_[child] = parent;
+  if (!is_new && is_apart(joint->second, transform.X, rounding_m, rounding_rad))
+    changed_.try_emplace({child, parent}, joint->second);
   joint->second = transform.X;
 }
 
 std::vector<std::string> FrameTree::left_out(const std::string& topic) const {
   std::vector<std::string> all;
   if (impossible_ > 0) all.push_back(ros::impossible_transforms(topic, impossible_));
-  for (const auto& [child, parent] : changed_)
-    all.push_back(topic + ": '" + child + "' lies in '" + parent + "' with several values; the last one is taken");
+  for (const auto& [joint, first] : changed_) {
+    const auto& [child, parent] = joint;
+    all.push_back(topic + ": '" + child + "' lies in '" + parent + "' with several values, first at " +
+                  words_of(first) + ", last at " + words_of(mounts_.at(child).at(parent)) + "; the last one is taken");
+  }
   return all;
 }
 

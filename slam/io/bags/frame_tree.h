@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "slam/io/bags/ros_message.h"
@@ -40,8 +41,9 @@ class FrameTree {
 
   /// By child and parent: some drivers give a frame two parents, as the robot and the map.
   std::map<std::string, std::map<std::string, Pose>> mounts_;
-  std::map<std::string, std::string> changed_;  ///< joints with several values: child and parent
-  std::size_t impossible_ = 0;                  ///< transforms
+  std::map<std::pair<std::string, std::string>, Pose>
+      changed_;                 ///< first values of joints, child and parent, with several
+  std::size_t impossible_ = 0;  ///< transforms
 };
 
 /// Joints on /tf that are published again and again and never move, as ROS 1 publishes mounts.

@@ -110,8 +110,9 @@ class Reader {
     if (cdr_ && !bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
     return {bytes.begin(), bytes.end()};
   }
+  /// ROS 2 counts from 1970 both ways.
   Nanoseconds time() {
-    const std::int64_t s = number<std::uint32_t>();
+    const std::int64_t s = cdr_ ? std::int64_t{number<std::int32_t>()} : std::int64_t{number<std::uint32_t>()};
     return s * second_ns + number<std::uint32_t>();
   }
   Nanoseconds header(std::string& frame) {

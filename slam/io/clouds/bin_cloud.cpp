@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/input_file.h"
 #include "bim/errors.h"
 #include "bim/median.h"
@@ -78,10 +79,10 @@ bool is_by_axis(const std::vector<std::uint8_t>& data) {
 
 }  // namespace
 
-bool is_bin_cloud(std::string_view file) { return file.ends_with(".bin"); }
+bool is_bin_cloud(std::string_view file) { return has_ending(file, ".bin"); }
 
 PointCloud read_bin_cloud(const std::string& file) {
-  const bool with_ring = file.ends_with(".pcd.bin");
+  const bool with_ring = has_ending(file, ".pcd.bin");
   PointCloud cloud;
   for (const char* name : {"x", "y", "z", "intensity", "ring"})
     if (with_ring || cloud.fields.size() < 4)

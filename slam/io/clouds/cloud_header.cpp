@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bim/config/file_ending.h"
 #include "bim/errors.h"
 #include "bim/ply_types.h"
 
@@ -304,11 +305,11 @@ CloudHeader read_cloud_header(std::string_view bytes, CloudFormat format, const 
   return header;
 }
 
-bool is_cloud_file(std::string_view file) { return file.ends_with(".pcd") || file.ends_with(".ply"); }
+bool is_cloud_file(std::string_view file) { return has_ending(file, ".pcd") || has_ending(file, ".ply"); }
 
 CloudFormat cloud_format_of(const std::string& file) {
   if (!is_cloud_file(file)) throw InputError({file, 0, 0}, "no point cloud; a .pcd or .ply would be right");
-  return file.ends_with(".ply") ? CloudFormat::ply : CloudFormat::pcd;
+  return has_ending(file, ".ply") ? CloudFormat::ply : CloudFormat::pcd;
 }
 
 }  // namespace plumbline::slam

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "slam/io/clouds/bin_cloud.h"
@@ -60,7 +61,7 @@ bool is_earlier_name(const std::string& a, const std::string& b) {
 /// Of a cloud's file, .pcd.bin apart from .bin; empty of any other.
 std::string_view ending_of_cloud(std::string_view name) {
   for (const std::string_view ending : {".pcd.bin", ".bin", ".pcd", ".ply"})
-    if (name.ends_with(ending)) return ending;
+    if (has_ending(name, ending)) return ending;
   return {};
 }
 

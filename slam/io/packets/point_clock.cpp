@@ -14,6 +14,7 @@
 #include "bim/errors.h"
 #include "bim/median.h"
 #include "slam/io/packets/cloud_fields.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam {
 
@@ -39,6 +40,12 @@ class ClockChoice {
     for (const double unit : units_ns)
       if (const auto clock = fitting({&field_, unit, static_cast<double>(cloud_.stamp)}, 0.0)) return clock;
     return std::nullopt;
+  }
+  /// Whole ns within the second.
+  [[nodiscard]] std::optional<PointClock> of_second() const {
+    const auto [first, last] = returns_extent(cloud_, {&field_, 1.0, 0.0}, points_, unbounded);
+    if (!whole() || !(first >= 0.0 && last < 1e9)) return std::nullopt;
+    return PointClock{&field_, 1.0, static_cast<double>(cloud_.stamp % second_ns), true};
   }
   /// All points at 0, as before a driver knows the time: that is from neither.
   [[nodiscard]] bool is_without_times() const {
@@ -83,6 +90,7 @@ std::optional<PointClock> find_clock(const PointCloud& cloud, const PointField& 
                                      const std::vector<CloudPoint>& points, const PointTimes& times) {
   const ClockChoice choice(cloud, field, points);
   if (times.unit_ns > 0.0) return choice.in_unit(times.unit_ns);
+  if (times.base == TimeBase::second && !choice.is_without_times()) return choice.of_second();
   std::optional<PointClock> clock;
   if (times.base != TimeBase::day || choice.is_without_times()) clock = choice.plain();
   if (!clock && times.base != TimeBase::stamp) clock = choice.of_day();
@@ -148,6 +156,7 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   if (is_empty(cloud)) return ++without_times_ < most_without_times;
   check_cloud(cloud);
   const PointField* time = time_field(cloud);
+  if (time != nullptr && (time->type == PointType::u32 || time->type == PointType::i32)) return add_whole(cloud, *time);
   if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
@@ -165,8 +174,34 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   return false;
 }
 
+bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) {
+  constexpr int least = 5, enough = 20;  // clouds
+  constexpr double far_ns = 0.2e9, share = 0.25;
+  if (found_) return false;
+  const std::vector<CloudPoint> points = read_untimed(cloud);
+  const auto [first, last] = returns_extent(cloud, {&time, 1.0, 0.0}, points, unbounded);
+  if (!(last > first)) return true;  // no times yet
+  // Where the second ends within the cloud, the first point is the least of those before that.
+  const bool goes_round = last - first > 0.5e9;
+  const double begin = goes_round ? returns_extent(cloud, {&time, 1.0, 0.0, true}, points, unbounded).first : first;
+  const Seen seen{cloud.stamp, begin};
+  if (!first_) first_ = seen;
+  const double passed = static_cast<double>((seen.stamp - first_->stamp) % second_ns);
+  const double moved = seen.first_ns - first_->first_ns;
+  most_moved_ns_ = std::max(most_moved_ns_, std::abs(moved));
+  most_moved_from_stamp_ns_ = std::max(most_moved_from_stamp_ns_, std::abs(std::remainder(moved - passed, 1e9)));
+  ++whole_;
+  const bool fits = first >= 0.0 && last < 1e9;
+  const bool grows = most_moved_ns_ > far_ns, follows = most_moved_from_stamp_ns_ < share * far_ns;
+  if (!fits || (whole_ >= least && !grows && !follows)) found_ = TimeBase::unknown;
+  if (fits && whole_ >= least && grows) found_ = follows ? TimeBase::second : TimeBase::unknown;
+  if (whole_ >= enough && !found_) found_ = TimeBase::unknown;
+  return !found_;
+}
+
 TimeBase TimeBaseSearch::base() const {
   if (found_) return *found_;
+  if (whole_ > 0) return TimeBase::unknown;
   if (!first_ || last_->stamp <= first_->stamp) return TimeBase::unknown;
   const double passed = static_cast<double>(last_->stamp - first_->stamp);
   return std::abs(last_->first_ns - first_->first_ns - passed) < 0.5 * passed ? TimeBase::day : TimeBase::stamp;
@@ -188,7 +223,9 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   const auto [first, last] = returns_extent(cloud, {time, 1.0, 0.0}, points, unbounded);
   const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0, false});
   readable_ = readable_ && clock;
-  if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
+  if (!(last > first))
+    return true;  // a driver may need long to know the time, and the unit is told by what it then writes
+  if (!std::isfinite(first)) return ++without_times_ < most_without_times;
   const auto [from, to] = clock ? returns_extent(cloud, *clock, points, longest_sweep_ns) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
@@ -219,6 +256,10 @@ AssumedTimes SweepLengthSearch::unit_found() const {
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
   constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
   AssumedTimes found{{base_, 0.0, 0, false}, {}, true};
+  if (base_ == TimeBase::second) {
+    found.said = "point times are ns within the second, which are taken against the stamps";
+    return found;
+  }
   if (spacings_ns_.size() < least_seen || spans_.size() < least_seen) return found;
   const double spacing = upper_median(spacings_ns_), length = upper_median(lengths_ns_), span = upper_median(spans_);
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -15,10 +16,12 @@ inline constexpr Nanoseconds longest_sweep_ns = 1'000'000'000;
 struct PointClock {
   const PointField* field = nullptr;
   double unit_ns = 1.0;
-  double zero_ns = 0.0;  ///< the cloud's stamp where the times are those of the day, else 0
+  double zero_ns = 0.0;    ///< the cloud's stamp where the times are those of the day or of the second, else 0
+  bool of_second = false;  ///< the times begin anew with each second
 
   [[nodiscard]] double nanoseconds(const std::uint8_t* point) const {
-    return unit_ns * number_at(point + field->offset, field->type) - zero_ns;
+    const double t = unit_ns * number_at(point + field->offset, field->type) - zero_ns;
+    return of_second ? std::remainder(t, 1e9) : t;
   }
 };
 

@@ -33,11 +33,12 @@ struct PointCloud {
   std::vector<std::uint8_t> data;
 };
 
-/// What times of points count from: their cloud's stamp, or 0 as that does.
-enum class TimeBase { unknown, stamp, day };
+/// What times of points count from: their cloud's stamp, 0 as that does, or the second in which they were taken.
+enum class TimeBase { unknown, stamp, day, second };
 
 /// Finds the time base of a topic's clouds. One alone does not tell while the clock is near 0; over several, times of
-/// the day grow with the stamps, and others stay within a sweep. Only f64 can hold times of the day.
+/// the day grow with the stamps, and others stay within a sweep. Only f64 can hold times of the day. Whole numbers of
+/// 32 bits below 1e9 that grow with the stamps and begin anew with each second are ns within that.
 class TimeBaseSearch {
  public:
   /// The next cloud; false once no other is needed. Throws InputError as scan_of() does.
@@ -50,9 +51,15 @@ class TimeBaseSearch {
     Nanoseconds stamp = 0;
     double first_ns = 0.0;  ///< time of the first point, as one of the day
   };
+  /// Whole numbers.
+  [[nodiscard]] bool add_whole(const PointCloud& cloud, const PointField& time);
+
   std::optional<TimeBase> found_;
   std::optional<Seen> first_, last_;
-  int without_times_ = 0;  ///< clouds
+  int whole_ = 0;                          ///< clouds with times that are whole numbers
+  double most_moved_ns_ = 0.0;             ///< of the first points' times against those of the first cloud
+  double most_moved_from_stamp_ns_ = 0.0;  ///< the same of their differences to the stamps, within a second
+  int without_times_ = 0;                  ///< clouds
 };
 
 /// How the times of a topic's points are read.

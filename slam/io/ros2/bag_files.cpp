@@ -10,6 +10,8 @@
 #include <system_error>
 #include <tuple>
 
+#include "bim/config/file_ending.h"
+
 namespace plumbline::slam {
 
 namespace fs = std::filesystem;
@@ -44,7 +46,7 @@ BagFiles find_bag_files(const std::string& folder) {
   std::vector<Part> parts;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
-    if ((name.ends_with(".db3") || name.ends_with(".mcap")) && it->is_regular_file(error))
+    if ((has_ending(name, ".db3") || has_ending(name, ".mcap")) && it->is_regular_file(error))
       parts.push_back(part_of(name));
   }
   std::sort(parts.begin(), parts.end(),

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bim/config/file_ending.h"
 #include "bim/config/input_file.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
@@ -353,7 +354,7 @@ std::unique_ptr<MessageSource> open_bag_files(const std::string& folder, const B
   const auto open_bytes = std::make_shared<std::size_t>(0);
   for (const std::string& name : found.names) {
     const std::string file = folder + "/" + name;
-    files.push_back(name.ends_with(".mcap") ? open_mcap(file, open_bytes) : open_rosbag2_database(file));
+    files.push_back(has_ending(name, ".mcap") ? open_mcap(file, open_bytes) : open_rosbag2_database(file));
   }
   std::vector<std::string> said;
   if (!found.missing.empty()) said.push_back("the bag's file '" + found.missing + "' is missing");

@@ -200,5 +200,16 @@ TEST(BuildingMap, SaysThatTheScansAreOfTheBuildingAsBuilt) {
       << localizability_text(altered, maps);
 }
 
+TEST(BuildingMap, ItsJsonHasTheWordsOfTheDocuments) {
+  const bim::Building room = room_of(3.0);
+  const RunBuilding building({room, room, {}, true});
+  BuildingMapOptions options;
+  options.step_m = 1.0;
+  const std::string text = write_json(localizability_json(building, {map_of(building, options), std::nullopt}));
+  for (const char* key : {"\"one_scan\"", "\"aliases\"", "\"aliases_max\""})
+    EXPECT_NE(text.find(key), std::string::npos) << key;
+  for (const char* former : {"twin", "look"}) EXPECT_EQ(text.find(former), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios

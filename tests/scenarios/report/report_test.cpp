@@ -22,7 +22,7 @@ TEST(Report, IsSelfContainedAndSaysWhatFailed) {
 
 TEST(Report, GivesBothAnswersAndWhatMethodsWereTold) {
   ReportInput input = sample();
-  const auto place = Tree::map().set("t_s", 0.0).set("distance_m", 0.0).set("twins", 1).set("weak", 0);
+  const auto place = Tree::map().set("t_s", 0.0).set("distance_m", 0.0).set("aliases", 1).set("weak", 0);
   Tree alone = Tree::map(), furnished = Tree::map();
   alone.set("identifiable", false).set("places", Tree(Tree::List{place}));
   furnished.set("identifiable", true).set("at_s", 0.0).set("at_m", 0.0).set("places", Tree(Tree::List{place}));
@@ -240,6 +240,22 @@ TEST(Report, DrawsNoErrorWhereAMethodSaysThatItIsLost) {
   EXPECT_EQ(page.find(">5000<"), std::string::npos);  // the scale is that of answers
   EXPECT_NE(page.find(" It reported LOST at 51 of 101 scans"), std::string::npos);
   EXPECT_EQ(occurrences(page, "<polyline"), occurrences(render_report(sample()), "<polyline"));
+}
+
+TEST(Report, SaysWhatTheScenarioInjectedAndWhenAMethodFailedByIt) {
+  EXPECT_EQ(render_report(sample()).find("Injected faults"), std::string::npos);
+  ReportInput input = sample();
+  input.results.set("injected", Tree(Tree::List{Tree("the feet slip at 1 m/s"), Tree("dust & rain")}));
+  ReportMethod& m = input.methods.front();
+  for (std::size_t i = 42; i < 60; ++i) m.samples[i].lost = true;
+  m.failed_s = 4.2;
+  m.slip = SlipEpisode{4.0, 4.2};
+  const std::string page = render_report(input);
+  const std::size_t at = page.find("<b>Injected faults:</b> the feet slip at 1 m/s; dust &amp; rain</p>");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, page.find("<svg class=\"map\""));  // in the head of the page
+  EXPECT_NE(page.find("LOST at 18 of 101 scans, first at t = 4.2 s."), std::string::npos);
+  EXPECT_NE(page.find("The feet slipped from t = 4 s to 4.2 s; it first failed at t = 4.2 s."), std::string::npos);
 }
 
 TEST(Report, ShowsTheWallsItRecognised) {

@@ -32,6 +32,12 @@ TEST(WalkEnd, ATimeThatWasUpSaysWhatWasLeftAndWhatWouldDo) {
             "its route");
 }
 
+TEST(WalkEnd, DurationsAreSaidInTenths) {
+  FinishedRun run = walk_that_ended({2.0, 2.5}, 29.9);
+  run.scenario.duration_s = 10.600000000000001;
+  EXPECT_EQ(warnings_of_walk(run).front().rfind("the walk ended when its time was up (10.6 s), before", 0), 0U);
+}
+
 TEST(WalkEnd, AWalkThatIsDoneHasNothingToSay) {
   EXPECT_TRUE(warnings_of_walk(walk_that_ended({6.2, 2.5}, 29.9)).empty());
   EXPECT_TRUE(warnings_of_walk(walk_that_ended({3.8, 2.5}, 20.0)).empty()) << "the time was not up";

@@ -214,6 +214,21 @@ TEST(SweepTable, NamesWalksThatFailedOrHaveWarnings) {
   EXPECT_EQ(refused_in(walk("v", "3", "fell", {})), "");
 }
 
+// Behind a harmless warning, too.
+TEST(SweepTable, WalksThatWereCutShortHaveANoteOfTheirOwn) {
+  SweepRow row;
+  row.scenario = "a";
+  row.seed = "1";
+  row.verdict = "complete";
+  row.warnings = {"the walk is only 9 m long", "the walk ended when its time was up (3 s)"};
+  SweepRow other = row;
+  other.seed = "2";
+  other.warnings.pop_back();
+  EXPECT_EQ(walk_notes({row, other}),
+            (std::vector<std::string>{"a: 1 of 2 walks cut short: the walk ended when its time was up (3 s)",
+                                      "a: 2 of 2 walks with a warning, the first: the walk is only 9 m long"}));
+}
+
 TEST(SweepTable, AResultWithoutMethodsIsRefused) {
   EXPECT_THROW((void)rows_of(Tree::map().set("scenario", "a"), "x.json"), InputError);
 }

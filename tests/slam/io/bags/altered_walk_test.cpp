@@ -100,6 +100,24 @@ TEST_F(AlteredWalk, RingsOfOneNumberAreLeftOutAndSaid) {
     EXPECT_EQ(altered.frames[i].scan.point_L, plain.frames[i].scan.point_L);
 }
 
+TEST_F(AlteredWalk, WhatIsStampedBeforeTheClockWasSetIsLeftOut) {
+  constexpr Nanoseconds today = 1'700'000'000'000'000'000;
+  Alteration late;
+  late.cloud = [](int i, PointCloud& cloud) { cloud.stamp += i > 0 ? today : 0; };
+  late.odometry = [](int, ros::OdometryMessage& message) { message.X_OR.stamp += today; };
+  late.imu = [](int i, ros::FramedImu& message) { message.imu.stamp += i > 2 ? today : 0; };
+  const Read read_late = read(late);
+  EXPECT_EQ(read_late.frames.size(), 3U);
+  ASSERT_EQ(read_late.left_out.size(), 2U);
+  EXPECT_EQ(read_late.left_out[1],
+            "/velodyne_points: 1 of 4 records left out: stamped before 2000, when the clock was not set");
+  EXPECT_EQ(read_late.left_out[0].rfind("/imu/data: 3 of ", 0), 0U) << read_late.left_out[0];
+  Alteration plain = late;
+  plain.cloud = [](int, PointCloud& cloud) { cloud.stamp += today; };
+  plain.imu = [](int, ros::FramedImu& message) { message.imu.stamp += today; };
+  EXPECT_TRUE(read(plain).left_out.empty());
+}
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 template <class Records>

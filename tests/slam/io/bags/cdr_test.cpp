@@ -45,6 +45,19 @@ TEST(Cdr, EveryCutMessageIsRefused) {
             std::string::npos);
 }
 
+// builtin_interfaces/Time has int32 seconds, std_msgs of ROS 1 has uint32.
+TEST(Cdr, SecondsMayBeBefore1970) {
+  for (const Encoding encoding : {Encoding::ros1, Encoding::cdr}) {
+    Imu imu;
+    imu.stamp = 5'000'000'007;
+    ros::Bytes bytes = ros::write_imu(imu, "base_link", encoding);
+    const std::int32_t seconds = -5;  // after the number of the header in ROS 1, and the head in ROS 2
+    std::memcpy(&bytes[4], &seconds, sizeof seconds);
+    const Nanoseconds stamp = ros::read_imu(bytes, encoding).imu.stamp;
+    EXPECT_EQ(stamp, encoding == Encoding::cdr ? -4'999'999'993 : 4'294'967'291'000'000'007);
+  }
+}
+
 TEST(Cdr, PosesAreReadOfEveryTypeThatHoldsThem) {
   for (const Encoding encoding : {Encoding::ros1, Encoding::cdr}) {
     ros::OdometryMessage odometry;

@@ -47,6 +47,17 @@ TEST(CloudRecording, IsAScanEachTenthOfASecond) {
   EXPECT_FALSE(recording->next(frame));
 }
 
+TEST(CloudRecording, EndingsMayBeInCapitals) {
+  for (const char* ending : {".PCD", ".Ply"}) {
+    const Folder folder;
+    write_clouds(folder, {"0" + std::string(ending), "1" + std::string(ending)});
+    ASSERT_TRUE(is_cloud_folder(folder.path())) << ending;
+    const auto recording = open_cloud_folder(folder.path());
+    SensorFrame frame;
+    EXPECT_TRUE(recording->next(frame) && recording->next(frame) && !recording->next(frame)) << ending;
+  }
+}
+
 TEST(CloudRecording, AScanEachPeriodThatTheDescriptionTells) {
   const Folder folder;
   write_clouds(folder, {"0.pcd", "1.pcd"});

@@ -100,6 +100,55 @@ TEST(SweepLength, ACloudWithoutPointsTellsNothing) {
   EXPECT_EQ(base.base(), TimeBase::day);
 }
 
+// Before a driver knows the time, it may write 0 for long.
+TEST(SweepLength, TheUnitIsToldByTheFirstCloudsWithTimes) {
+  SweepLengthSearch search(TimeBase::stamp);
+  int k = 0;
+  for (; k < 500; ++k) ASSERT_TRUE(search.add(turn<std::uint32_t>(10.0 + 0.1 * k, "t", PointType::u32, 0, 0)));
+  for (; k < 530 && search.add(turn<std::uint32_t>(10.0 + 0.1 * k, "t", PointType::u32, 0, 99'000)); ++k) continue;
+  EXPECT_EQ(search.found().times.unit_ns, 1e3) << search.found().said;
+}
+
+/// A cloud whose times begin anew with each second.
+PointCloud turn_of_second(double stamp_s) {
+  PointCloud cloud = turn<std::uint32_t>(stamp_s, "t", PointType::u32, 0, 99'000'000);
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    std::uint32_t time = 0;
+    std::memcpy(&time, &cloud.data[i * cloud.point_step + 12], sizeof time);
+    time = static_cast<std::uint32_t>((cloud.stamp + time) % 1'000'000'000);
+    std::memcpy(&cloud.data[i * cloud.point_step + 12], &time, sizeof time);
+  }
+  return cloud;
+}
+
+TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
+  TimeBaseSearch base;
+  const double first_s = 1'700'000'000.35;
+  for (int k = 0; k < 30 && base.add(turn_of_second(first_s + 0.1 * k)); ++k) continue;
+  ASSERT_EQ(base.base(), TimeBase::second);
+  SweepLengthSearch search(base.base());
+  for (int k = 0; k < 30 && search.add(turn_of_second(first_s + 0.1 * k)); ++k) continue;
+  const AssumedTimes found = search.found();
+  EXPECT_EQ(found.said, "point times are ns within the second, which are taken against the stamps");
+  for (int k = 0; k < 30; ++k) {
+    const PointCloud cloud = turn_of_second(first_s + 0.1 * k);
+    const Scan scan = scan_of(cloud, found.times);
+    EXPECT_NEAR(static_cast<double>(scan.stamp - cloud.stamp), 0.099e9, 1.0) << k;
+    EXPECT_NEAR(length_s(cloud, found.times), 0.099, 1e-6) << k;
+  }
+}
+
+TEST(SweepLength, WholeNumbersFromTheStampAreNotOfTheSecond) {
+  for (const double apart_s : {0.1, 0.05, 1.0, 0.25}) {
+    TimeBaseSearch base;
+    int k = 0;
+    for (; k < 30; ++k)
+      if (!base.add(turn<std::uint32_t>(10.0 + apart_s * k, "t", PointType::u32, 1000, 99'000'000))) break;
+    EXPECT_LT(k, 30);
+    EXPECT_EQ(base.base(), TimeBase::unknown) << apart_s;
+  }
+}
+
 TEST(SweepLength, WhatFitsNoUnitIsSaid) {
   const AssumedTimes overlapping = found(0.1, "time", PointType::f32, 0.0F, 0.5F);
   EXPECT_EQ(overlapping.times.unit_ns, 0.0);

@@ -28,6 +28,8 @@ TEST(BagFiles, AreOneOrNumbered) {
   EXPECT_EQ(split.names, (Names{"w_0.db3", "w_1.db3", "w_2.db3", "w_10.db3"}));
   EXPECT_EQ(split.missing, "w_3.db3");
   EXPECT_EQ(found_among({"w_0.db3", "w_1.db3"}).missing, "");
+  EXPECT_EQ(found_among({"WALK.DB3"}).names, Names{"WALK.DB3"});
+  EXPECT_EQ(found_among({"Walk.MCAP", "notes.TXT"}).names, Names{"Walk.MCAP"});
 }
 
 TEST(BagFiles, OfDifferentBagsAreNone) {
