@@ -49,6 +49,14 @@ double FitConfig::of_scan(const Agreement& seen) const {
   return std::min(seen.inliers / inliers_full, most_a_scan);
 }
 
+FitConfig::Count FitConfig::count_of(const Agreement& seen) const {
+  const double fit = of_scan(seen);
+  const bool says_nothing = fit == 0.0 && seen.inliers < inliers_min;
+  if (!says_nothing || seen.penetration_ratio > clear_penetration) return {fit, 1.0};
+  const double part = seen.inliers / inliers_min;
+  return {part, part};
+}
+
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {
   replayed_reference_.reset();
   ruled_out_.clear();
@@ -223,10 +231,10 @@ void HypothesisSet::clear() {
 
 void HypothesisSet::update_agreement(const Agreement& latest, double share, PoseHypothesis& hypothesis) const {
   hypothesis.agreement.update_mean(latest, config_.ema_alpha);
-  const double fit = share * config_.fit.of_scan(latest);
-  hypothesis.fit = std::clamp(hypothesis.fit + fit, -config_.fit.limit, config_.fit.limit);
-  hypothesis.fit_sum += fit;
-  hypothesis.scans += share;
+  const FitConfig::Count count = config_.fit.count_of(latest);
+  hypothesis.fit = std::clamp(hypothesis.fit + share * count.fit, -config_.fit.limit, config_.fit.limit);
+  hypothesis.fit_sum += share * count.fit;
+  hypothesis.scans += share * count.scans;
 }
 
 void HypothesisSet::rebase_reference(const PlanIndex& index) {

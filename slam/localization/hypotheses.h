@@ -29,6 +29,7 @@ struct FitConfig {
   double misfit_penetration = 0.06;
   double misfit_scan = 3.0;
   double doubtful_scan = 0.5;
+  double clear_penetration = 0.01;
   double limit = 18.0;
   double whole_step_m = 0.2;
 
@@ -48,6 +49,8 @@ struct FitConfig {
       share_field("penetration ratio without the worst wall above which a scan does not fit"));
     v("misfit_scan", misfit_scan, plain_field("what such a scan counts against the pose", {.min = 0}));
     v("doubtful_scan", doubtful_scan, plain_field("what any other scan counts against it", {.min = 0}));
+    v("clear_penetration", clear_penetration,
+      share_field("largest penetration ratio of a scan below inliers_min that counts for the pose, in part"));
     v("limit", limit, plain_field("least and largest sum", {.min = 0}));
     // Scans from one place are not independent. As update_m, so that every scan of a walking robot counts whole.
     v("whole_step_m", whole_step_m,
@@ -56,6 +59,13 @@ struct FitConfig {
   }
   /// What one scan counts for.
   [[nodiscard]] double of_scan(const Agreement& seen) const;
+  struct Count {
+    double fit = 0.0;
+    double scans = 1.0;  ///< in the mean
+  };
+  /// The same for a pose that is searched for: behind clutter the beams that reach the walls count, if none of them
+  /// passes through one.
+  [[nodiscard]] Count count_of(const Agreement& seen) const;
   /// How much of a scan counts. step_m: from the scan before.
   [[nodiscard]] double share_of_scan(double step_m) const { return std::min(1.0, step_m / whole_step_m); }
 };
