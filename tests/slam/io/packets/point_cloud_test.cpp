@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bim/errors.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/packets/made_cloud.h"
 
 namespace plumbline::slam {
