@@ -51,10 +51,10 @@ double FitConfig::of_scan(const Agreement& seen) const {
 
 FitConfig::Count FitConfig::count_of(const Agreement& seen) const {
   const double fit = of_scan(seen);
-  const bool says_nothing = fit == 0.0 && seen.inliers < inliers_min;
-  if (!says_nothing || seen.penetration_ratio > clear_penetration) return {fit, 1.0};
-  const double part = seen.inliers / inliers_min;
-  return {part, part};
+  const bool clear = seen.inliers >= inliers_doubtful && seen.penetration_ratio <= clear_penetration;
+  if (fit < 0.0 || !clear) return {fit, 1.0};
+  const double part = seen.inliers < inliers_min ? seen.inliers / inliers_min : 1.0;
+  return {std::max(fit, part), part};
 }
 
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {

@@ -19,6 +19,16 @@ namespace plumbline::slam {
 
 namespace {
 
+constexpr Nanoseconds latest = 4'000'000'000'000'000'000;  ///< of a stamp, either way from 1970
+constexpr Nanoseconds longest_sweep = 2'000'000'000;
+constexpr std::string_view no_imu = "no record of the IMU lies within the time of the scans; are both on one clock?";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t from = text.find_first_not_of(" \t");
+  return from == std::string_view::npos ? std::string_view()
+                                        : text.substr(from, text.find_last_not_of(" \t") + 1 - from);
+}
+
 /// Of EuRoC: whole nanoseconds, then six numbers, with commas between them.
 Imu parse_euroc_imu(std::string_view line, const Mark& mark) {
   Imu record;
@@ -26,16 +36,18 @@ Imu parse_euroc_imu(std::string_view line, const Mark& mark) {
   std::size_t columns = 0;
   bool good = true;
   for (std::string_view rest = line; good;) {
-    const std::string_view text = rest.substr(0, rest.find(','));
+    const std::size_t end_of_column = rest.find(',');
+    const std::string_view text = trimmed(rest.substr(0, end_of_column));
     if (columns == 0) {
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), record.stamp);
-      good = error == std::errc() && end == text.data() + text.size();
+      good =
+          error == std::errc() && end == text.data() + text.size() && record.stamp > -latest && record.stamp < latest;
     } else {
       good = columns <= v.size() && parse_number(text, v[columns - 1]);
     }
     ++columns;
-    if (text.size() == rest.size()) break;
-    rest.remove_prefix(text.size() + 1);
+    if (end_of_column == std::string_view::npos) break;
+    rest.remove_prefix(end_of_column + 1);
   }
   if (!good || columns != v.size() + 1)
     throw InputError(mark,
@@ -51,7 +63,7 @@ std::vector<Imu> read_euroc_imu(const std::string& path) {
   LineReader lines(path);
   std::vector<Imu> records;
   for (std::string line; lines.next(line);) {
-    records.push_back(parse_euroc_imu(line, lines.mark()));
+    records.push_back(parse_euroc_imu(records.empty() ? without_byte_order_mark(line) : line, lines.mark()));
     if (records.size() > 1 && records.back().stamp <= records[records.size() - 2].stamp)
       throw InputError(lines.mark(), "stamps must increase from line to line");
   }
@@ -103,16 +115,14 @@ class WithMotion final : public Recording {
   }
 
   [[nodiscard]] bool next(SensorFrame& frame) override {
+    std::vector<Imu> before;  // of scans that are left out
     for (SensorFrame out; recording_->next(out); out = {}) {
       ++scans_;
-      if (!files_.imu.empty() && !out.imu.empty())
-        throw InputError({files_.imu, 0, 0}, "the recording has an IMU of its own; without this file it is read");
-      for (; next_imu_ < imu_.size() && imu_[next_imu_].stamp - origin() <= out.scan.stamp; ++next_imu_) {
-        out.imu.push_back(imu_[next_imu_]);
-        out.imu.back().stamp -= origin();
-      }
+      if (!files_.imu.empty()) take_imu(out);
+      out.imu.insert(out.imu.begin(), before.begin(), before.end());
       if (!files_.odometry.empty() && !take_odometry(out)) {
         ++early_;
+        before = std::move(out.imu);
         continue;
       }
       frame = std::move(out);
@@ -126,13 +136,29 @@ class WithMotion final : public Recording {
   void read_odometry() {
     if (recording_->has_odometry())
       throw InputError({files_.odometry, 0, 0}, "the recording has odometry of its own; without this file it is read");
-    const std::string text = read_text_file(files_.odometry);
+    const std::string read = read_text_file(files_.odometry);
+    const std::string_view text = without_byte_order_mark(read);
     is_of_scans_ = trajectory_form(text) == TrajectoryForm::kitti;
     if (is_of_scans_)
       for (const Pose& X_OR : read_kitti(text, files_.odometry)) odometry_.push_back({0, X_OR});
     else
       odometry_ = read_trajectory(text, files_.odometry, {});
     if (odometry_.empty()) throw InputError({files_.odometry, 0, 0}, "holds no pose");
+    if (odometry_.front().stamp <= -latest || odometry_.back().stamp >= latest)
+      throw InputError({files_.odometry, 0, 0}, "holds a time that is more than 126 years from 1970");
+  }
+
+  void take_imu(SensorFrame& frame) {
+    if (!frame.imu.empty())
+      throw InputError({files_.imu, 0, 0}, "the recording has an IMU of its own; without this file it is read");
+    const bool first = next_imu_ == 0;
+    const Nanoseconds until = frame.scan.stamp + origin();
+    for (; next_imu_ < imu_.size() && imu_[next_imu_].stamp <= until; ++next_imu_) {
+      frame.imu.push_back(imu_[next_imu_]);
+      frame.imu.back().stamp -= origin();
+    }
+    if (first && next_imu_ == imu_.size() && until - imu_.back().stamp > longest_sweep)
+      throw InputError({files_.imu, 0, 0}, std::string(no_imu));
   }
 
   /// False before the first record.
@@ -145,10 +171,9 @@ class WithMotion final : public Recording {
     }
     for (; next_odometry_ < odometry_.size(); ++next_odometry_) {
       const StampedPose& pose = odometry_[next_odometry_];
-      if (pose.stamp - origin() > frame.scan.stamp) break;
+      if (pose.stamp > frame.scan.stamp + origin()) break;
       frame.odometry.push_back({pose.stamp - origin(), pose.X_FR});
     }
-    constexpr Nanoseconds longest_sweep = 2'000'000'000;
     if (before == 0 && next_odometry_ == odometry_.size() &&
         frame.scan.stamp - frame.odometry.back().stamp > longest_sweep)
       throw InputError({files_.odometry, 0, 0}, std::string(odometry_over));
@@ -156,7 +181,9 @@ class WithMotion final : public Recording {
   }
 
   void check_end() const {
-    if (files_.odometry.empty() || scans_ == 0) return;
+    if (scans_ == 0) return;
+    if (!imu_.empty() && next_imu_ == 0) throw InputError({files_.imu, 0, 0}, std::string(no_imu));
+    if (files_.odometry.empty()) return;
     if (early_ == scans_) throw InputError({files_.odometry, 0, 0}, std::string(no_odometry));
     if (is_of_scans_ && next_odometry_ < odometry_.size()) fail_count();
   }

@@ -372,19 +372,28 @@ TEST(FitConfig, ScansThatPenetrateCountAgainstAPose) {
 TEST(FitConfig, BehindClutterTheBeamsThatReachTheWallsCount) {
   const FitConfig config;
   const double few = 0.5 * (config.inliers_doubtful + config.inliers_min);
-  const FitConfig::Count clear = config.count_of({few, config.clear_penetration, 0.0});
+  const FitConfig::Count clear = config.count_of({few, config.clear_penetration, 0.01});
   EXPECT_NEAR(clear.fit, few / config.inliers_min, 1e-12);
   EXPECT_EQ(clear.scans, clear.fit) << "its mean is that of a scan that fits";
-  const FitConfig::Count pierced = config.count_of({few, 1.1 * config.clear_penetration, config.clear_penetration});
+  const FitConfig::Count pierced = config.count_of({few, 1.1 * config.clear_penetration, 0.011});
   EXPECT_EQ(pierced.fit, 0.0);
-  EXPECT_EQ(pierced.scans, 1.0);
-  for (const Agreement& seen : {Agreement{0.5, 0.0, 0.0}, Agreement{0.05, 0.0, 0.0}, Agreement{0.5, 0.2, 0.1}}) {
+  for (const Agreement& seen : {Agreement{0.6, 0.0, 0.0}, Agreement{0.05, 0.0, 0.0}, Agreement{0.5, 0.2, 0.1}}) {
     EXPECT_EQ(config.count_of(seen).fit, config.of_scan(seen));
     EXPECT_EQ(config.count_of(seen).scans, 1.0);
   }
   FitConfig any;
-  any.inliers_doubtful = any.inliers_min = 0.0;
+  any.inliers_doubtful = any.inliers_min = any.doubtful_scan = 0.0;
   EXPECT_EQ(any.count_of({0.0, 0.0, 0.0}).scans, 1.0);
+}
+
+TEST(FitConfig, MoreBeamsOnTheirFacesNeverCountLess) {
+  const FitConfig config;
+  double before = config.count_of({0.0, 0.0, 0.0}).fit;
+  for (double inliers = 0.001; inliers <= 1.0; inliers += 0.001) {
+    const double fit = config.count_of({inliers, 0.0, 0.0}).fit;
+    EXPECT_GE(fit, before) << inliers;
+    before = fit;
+  }
 }
 
 }  // namespace

@@ -99,6 +99,36 @@ TEST_F(MotionFilesTest, FormsOfOthersAreRead) {
   EXPECT_EQ(inertial.at(1).imu.at(0).linear_acceleration_R, Eigen::Vector3d(1, 2, 9));
 }
 
+TEST_F(MotionFilesTest, TheImuOfScansBeforeTheOdometryIsKept) {
+  const std::string tum = put("odometry.tum", "2.5 1 0 0 0 0 0 1\n");
+  const std::string imu = put("data.csv", "500000000, 0, 0, 1, 0, 0, 9.8\n1500000000, 0, 0, 2, 0, 0, 9.8\n");
+  const std::vector<SensorFrame> got = frames({tum, imu});
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_EQ(got[0].imu.size(), 2U);
+  EXPECT_TRUE(got[1].imu.empty());
+}
+
+TEST_F(MotionFilesTest, FilesMayBeginWithAByteOrderMark) {
+  const std::string kitti = put("poses.txt", "\xEF\xBB\xBF" + std::string("1 0 0 1 0 1 0 0 0 0 1 0\n") +
+                                                 "1 0 0 2 0 1 0 0 0 0 1 0\n1 0 0 3 0 1 0 0 0 0 1 0\n"
+                                                 "1 0 0 4 0 1 0 0 0 0 1 0\n");
+  EXPECT_EQ(frames({kitti, {}}).size(), 4U);
+  const std::string imu = put("data.csv", "\xEF\xBB\xBF" + std::string("1000000000,0,0,0,0,0,9.8\n"));
+  EXPECT_EQ(frames({{}, imu}).at(0).imu.size(), 1U);
+}
+
+TEST_F(MotionFilesTest, AnImuOnAnotherClockIsRefused) {
+  const std::string said = ": no record of the IMU lies within the time of the scans; are both on one clock?";
+  const std::string late = put("late.csv", "1700000000000000000,0,0,0,0,0,9.8\n");
+  EXPECT_EQ(complaint({{}, late}), late + said);
+  const std::string early = put("early.csv", "-9000000000,0,0,0,0,0,9.8\n");
+  EXPECT_EQ(complaint({{}, early}), early + said);
+  const std::string never = put("never.csv", "-9223372036854775808,0,0,0,0,0,9.8\n");
+  EXPECT_EQ(complaint({{}, never}).rfind(never + ":1:1: is no line of an IMU", 0), 0U);
+  const std::string ages = put("ages.tum", "-9000000000 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(complaint({ages, {}}), ages + ": holds a time that is more than 126 years from 1970");
+}
+
 TEST_F(MotionFilesTest, WhatDoesNotFitIsRefusedWithItsPlace) {
   const std::string late = put("late.tum", "5 0 0 0 0 0 0 1\n"), early = put("early.tum", "-9 0 0 0 0 0 0 1\n");
   EXPECT_EQ(complaint({late, {}}), late + ": " + std::string(no_odometry));
