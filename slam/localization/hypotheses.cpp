@@ -51,10 +51,9 @@ double FitConfig::of_scan(const Agreement& seen) const {
 
 FitConfig::Count FitConfig::count_of(const Agreement& seen) const {
   const double fit = of_scan(seen);
-  const bool clear = seen.inliers >= inliers_doubtful && seen.penetration_ratio <= clear_penetration;
-  if (fit < 0.0 || !clear) return {fit, 1.0};
-  const double part = seen.inliers < inliers_min ? seen.inliers / inliers_min : 1.0;
-  return {std::max(fit, part), part};
+  const bool few = seen.inliers >= inliers_doubtful && seen.inliers < inliers_min;
+  if (fit < 0.0 || !few || seen.penetration_ratio > clear_penetration) return {fit, 1.0};
+  return {std::min(seen.inliers / inliers_full, most_a_scan), seen.inliers / inliers_min};
 }
 
 void HypothesisSet::predict_and_update(const PlanIndex& index, const Pose2& u, const LocalizationScan& scan) {

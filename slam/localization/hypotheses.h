@@ -50,7 +50,7 @@ struct FitConfig {
     v("misfit_scan", misfit_scan, plain_field("what such a scan counts against the pose", {.min = 0}));
     v("doubtful_scan", doubtful_scan, plain_field("what any other scan counts against it", {.min = 0}));
     v("clear_penetration", clear_penetration,
-      share_field("largest penetration ratio of a scan that counts for one, or in part below inliers_min"));
+      share_field("largest penetration ratio of a scan below inliers_min that counts for the pose, in part"));
     v("limit", limit, plain_field("least and largest sum", {.min = 0}));
     // Scans from one place are not independent. As update_m, so that every scan of a walking robot counts whole.
     v("whole_step_m", whole_step_m,

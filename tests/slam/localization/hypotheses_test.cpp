@@ -373,8 +373,8 @@ TEST(FitConfig, BehindClutterTheBeamsThatReachTheWallsCount) {
   const FitConfig config;
   const double few = 0.5 * (config.inliers_doubtful + config.inliers_min);
   const FitConfig::Count clear = config.count_of({few, config.clear_penetration, 0.01});
-  EXPECT_NEAR(clear.fit, few / config.inliers_min, 1e-12);
-  EXPECT_EQ(clear.scans, clear.fit) << "its mean is that of a scan that fits";
+  EXPECT_NEAR(clear.fit, few / config.inliers_full, 1e-12);
+  EXPECT_NEAR(clear.scans, few / config.inliers_min, 1e-12) << "its mean is that of the poorest scan that fits";
   const FitConfig::Count pierced = config.count_of({few, 1.1 * config.clear_penetration, 0.011});
   EXPECT_EQ(pierced.fit, 0.0);
   for (const Agreement& seen : {Agreement{0.6, 0.0, 0.0}, Agreement{0.05, 0.0, 0.0}, Agreement{0.5, 0.2, 0.1}}) {
