@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// Clocks that are set late, and the times of points beside them.
 #include "slam/io/bags/unset_clock.h"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
+#include "slam/io/bags/cloud_times.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
 #include "tests/slam/io/bags/altered_walk.h"
+#include "tests/slam/io/packets/turning_cloud.h"
 
 namespace plumbline::slam {
 namespace {
@@ -94,6 +97,19 @@ TEST(UnsetClock, OneLateStampOfASimulationIsLeftOutAlone) {
     EXPECT_NE(left_out[0].find("1 record left out, with stamps up to 1.7e+09 s ahead"), std::string::npos)
         << left_out[0];
   }
+}
+
+// Points have the time of the day, while the stamps of the first clouds have that of a clock which is not set.
+TEST(UnsetClock, TimesOfPointsAreNotToldByCloudsThatAreLeftOut) {
+  const ShowClouds show = [](const std::function<bool(const PointCloud&)>& add) {
+    for (int k = 0; k < 30; ++k) {
+      PointCloud cloud = turn_of_second(1'700'000'000.35 + 0.1 * k);
+      if (k < 3) cloud.stamp = 7 * second_ns + k * second_ns / 10;
+      if (!add(cloud)) return;
+    }
+  };
+  EXPECT_EQ(times_of_clouds(show, clock_of_clouds(show)).times.base, TimeBase::second);
+  EXPECT_EQ(times_of_clouds(show, UnsetClock()).times.base, TimeBase::unknown);
 }
 
 }  // namespace

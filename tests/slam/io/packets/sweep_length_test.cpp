@@ -6,33 +6,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "slam/io/packets/point_cloud.h"
+#include "tests/slam/io/packets/turning_cloud.h"
 
 namespace plumbline::slam {
 namespace {
-
-constexpr int points = 40;
-
-/// A turn of returns whose times go evenly from `first` to `last`.
-template <class T>
-PointCloud turn(double stamp_s, const std::string& name, PointType type, T first, T last) {
-  PointCloud cloud;
-  cloud.stamp = std::llround(1e9 * stamp_s);
-  cloud.fields = {{"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {name, 12, type}};
-  cloud.point_step = 12 + sizeof(T);
-  cloud.width = points;
-  cloud.height = 1;
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.data.resize(cloud.row_step);
-  for (int i = 0; i < points; ++i) {
-    std::uint8_t* at = &cloud.data[static_cast<std::size_t>(i) * cloud.point_step];
-    const float xyz[3] = {5.0F, 0.1F * static_cast<float>(i), 0.0F};
-    const T time = static_cast<T>(first + (last - first) * static_cast<T>(i) / static_cast<T>(points - 1));
-    std::memcpy(at, xyz, sizeof xyz);
-    std::memcpy(at + 12, &time, sizeof time);
-  }
-  return cloud;
-}
 
 /// From clouds so many seconds apart.
 template <class T>
@@ -107,18 +84,6 @@ TEST(SweepLength, TheUnitIsToldByTheFirstCloudsWithTimes) {
   for (; k < 500; ++k) ASSERT_TRUE(search.add(turn<std::uint32_t>(10.0 + 0.1 * k, "t", PointType::u32, 0, 0)));
   for (; k < 530 && search.add(turn<std::uint32_t>(10.0 + 0.1 * k, "t", PointType::u32, 0, 99'000)); ++k) continue;
   EXPECT_EQ(search.found().times.unit_ns, 1e3) << search.found().said;
-}
-
-/// A cloud whose times begin anew with each second.
-PointCloud turn_of_second(double stamp_s) {
-  PointCloud cloud = turn<std::uint32_t>(stamp_s, "t", PointType::u32, 0, 99'000'000);
-  for (std::size_t i = 0; i < cloud.width; ++i) {
-    std::uint32_t time = 0;
-    std::memcpy(&time, &cloud.data[i * cloud.point_step + 12], sizeof time);
-    time = static_cast<std::uint32_t>((cloud.stamp + time) % 1'000'000'000);
-    std::memcpy(&cloud.data[i * cloud.point_step + 12], &time, sizeof time);
-  }
-  return cloud;
 }
 
 TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
