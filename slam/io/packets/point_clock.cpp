@@ -24,6 +24,14 @@ constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
 constexpr double least_turn = 5e6;  ///< ns
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// As returns_extent(), of whole ns within the second.
+std::pair<double, double> extent_in_second(const PointCloud& cloud, const PointField& field,
+                                           const std::vector<CloudPoint>& points) {
+  constexpr double middle_ns = 499'999'999.5;
+  const auto [first, last] = returns_extent(cloud, {&field, 1.0, middle_ns}, points, middle_ns);
+  return {first + middle_ns, last + middle_ns};
+}
+
 /// The clocks by which a cloud's times may be read, those from the stamp and those of the day.
 class ClockChoice {
  public:
@@ -43,8 +51,7 @@ class ClockChoice {
   }
   /// Whole ns within the second.
   [[nodiscard]] std::optional<PointClock> of_second() const {
-    const auto [first, last] = returns_extent(cloud_, {&field_, 1.0, 0.0}, points_, unbounded);
-    if (!whole() || !(first >= 0.0 && last < 1e9)) return std::nullopt;
+    if (!whole() || !std::isfinite(extent_in_second(cloud_, field_, points_).first)) return std::nullopt;
     return PointClock{&field_, 1.0, static_cast<double>(cloud_.stamp % second_ns), true};
   }
   /// All points at 0, as before a driver knows the time: that is from neither.
@@ -179,8 +186,12 @@ bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) 
   constexpr double far_ns = 0.2e9, share = 0.25;
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
-  const auto [first, last] = returns_extent(cloud, {&time, 1.0, 0.0}, points, unbounded);
+  const auto [first, last] = extent_in_second(cloud, time, points);
   if (!(last > first)) return true;  // no times yet
+  if (!std::isfinite(first)) {
+    found_ = TimeBase::unknown;
+    return false;
+  }
   // Where the second ends within the cloud, the first point is the least of those before that.
   const bool goes_round = last - first > 0.5e9;
   const double begin = goes_round ? returns_extent(cloud, {&time, 1.0, 0.0, true}, points, unbounded).first : first;
@@ -191,10 +202,9 @@ bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) 
   most_moved_ns_ = std::max(most_moved_ns_, std::abs(moved));
   most_moved_from_stamp_ns_ = std::max(most_moved_from_stamp_ns_, std::abs(std::remainder(moved - passed, 1e9)));
   ++whole_;
-  const bool fits = first >= 0.0 && last < 1e9;
   const bool grows = most_moved_ns_ > far_ns, follows = most_moved_from_stamp_ns_ < share * far_ns;
-  if (!fits || (whole_ >= least && !grows && !follows)) found_ = TimeBase::unknown;
-  if (fits && whole_ >= least && grows) found_ = follows ? TimeBase::second : TimeBase::unknown;
+  if (whole_ >= least && !grows && !follows) found_ = TimeBase::unknown;
+  if (whole_ >= least && grows) found_ = follows ? TimeBase::second : TimeBase::unknown;
   if (whole_ >= enough && !found_) found_ = TimeBase::unknown;
   return !found_;
 }

@@ -103,6 +103,27 @@ TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
   }
 }
 
+// A driver may write -1 where it has no time.
+TEST(SweepLength, OneReturnWithoutTimeIsLeftOutOfTimesWithinTheSecond) {
+  for (const PointType type : {PointType::u32, PointType::i32}) {
+    const auto spoilt = [&](int k) {
+      PointCloud cloud = turn_of_second(1'700'000'000.35 + 0.1 * k, 200);
+      cloud.fields.back().type = type;
+      if (k % 3 == 1) std::memset(&cloud.data[100 * cloud.point_step + 12], 0xFF, 4);
+      return cloud;
+    };
+    TimeBaseSearch base;
+    for (int k = 0; k < 30 && base.add(spoilt(k)); ++k) continue;
+    ASSERT_EQ(base.base(), TimeBase::second);
+    for (int k = 0; k < 30; ++k) {
+      const Scan scan = scan_of(spoilt(k), {TimeBase::second, 0.0});
+      EXPECT_EQ(std::count_if(scan.range_m.begin(), scan.range_m.end(), [](double range) { return range > 0.0; }),
+                k % 3 == 1 ? 199 : 200);
+      EXPECT_NEAR(length_s(spoilt(k), {TimeBase::second, 0.0}), 0.099, 1e-6) << k;
+    }
+  }
+}
+
 TEST(SweepLength, WholeNumbersFromTheStampAreNotOfTheSecond) {
   for (const double apart_s : {0.1, 0.05, 1.0, 0.25}) {
     TimeBaseSearch base;

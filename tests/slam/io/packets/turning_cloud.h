@@ -25,7 +25,8 @@ template <class T>
   for (std::uint32_t i = 0; i < points; ++i) {
     std::uint8_t* at = &cloud.data[static_cast<std::size_t>(i) * cloud.point_step];
     const float xyz[3] = {5.0F, 0.1F * static_cast<float>(i), 0.0F};
-    const T time = static_cast<T>(first + (last - first) * static_cast<T>(i) / static_cast<T>(points - 1));
+    const double part = static_cast<double>(i) / (points - 1);
+    const T time = static_cast<T>(static_cast<double>(first) + static_cast<double>(last - first) * part);
     std::memcpy(at, xyz, sizeof xyz);
     std::memcpy(at + 12, &time, sizeof time);
   }
