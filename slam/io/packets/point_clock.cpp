@@ -105,7 +105,8 @@ std::optional<PointClock> find_clock(const PointCloud& cloud, const PointField& 
   return clock;
 }
 
-constexpr int most_without_times = 100;  // of a recording that has none, not all is read
+/// Clouds that tell nothing of their times: 5 minutes of most LiDARs. Of a longer recording not all is read beforehand.
+constexpr int most_without_times = 3000;
 
 /// Whatever its fields are.
 bool is_empty(const PointCloud& cloud) { return cloud.width == 0 || cloud.height == 0; }
@@ -167,7 +168,8 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
-  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
+  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; }))
+    return ++without_times_ < most_without_times;
   const ClockChoice choice(cloud, *time, points);
   if (choice.is_without_times()) return ++without_times_ < most_without_times;
   const std::optional<PointClock> of_day = choice.of_day();
@@ -187,7 +189,7 @@ bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) 
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
   const auto [first, last] = extent_in_second(cloud, time, points);
-  if (!(last > first)) return true;  // no times yet
+  if (!(last > first)) return ++without_times_ < most_without_times;
   if (!std::isfinite(first)) {
     found_ = TimeBase::unknown;
     return false;
@@ -233,9 +235,8 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   const auto [first, last] = returns_extent(cloud, {time, 1.0, 0.0}, points, unbounded);
   const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0, false});
   readable_ = readable_ && clock;
-  if (!(last > first))
-    return true;  // a driver may need long to know the time, and the unit is told by what it then writes
-  if (!std::isfinite(first)) return ++without_times_ < most_without_times;
+  // A driver may need long to know the time, and the unit is told by what it then writes.
+  if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
   const auto [from, to] = clock ? returns_extent(cloud, *clock, points, longest_sweep_ns) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;

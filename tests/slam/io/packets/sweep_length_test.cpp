@@ -103,6 +103,23 @@ TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
   }
 }
 
+// Of a long recording whose clouds have no times, not all is read beforehand.
+TEST(SweepLength, TheSearchForTimesEnds) {
+  const PointCloud whole = turn<std::uint32_t>(10.0, "t", PointType::u32, 0, 0);
+  const PointCloud of_floats = turn(10.0, "timestamp", PointType::f64, 0.0, 0.0);
+  PointCloud without_returns = turn(10.0, "timestamp", PointType::f64, 10.0, 10.1);
+  for (std::size_t at = 0; at < without_returns.data.size(); at += without_returns.point_step)
+    std::memset(&without_returns.data[at], 0, 12);
+  for (const PointCloud& cloud : {PointCloud{}, whole, of_floats, without_returns}) {
+    int asked = 0;
+    for (TimeBaseSearch base; asked < 5000 && base.add(cloud); ++asked) continue;
+    EXPECT_EQ(asked, 2999);
+    asked = 0;
+    for (SweepLengthSearch search(TimeBase::unknown); asked < 5000 && search.add(cloud); ++asked) continue;
+    EXPECT_EQ(asked, 2999);
+  }
+}
+
 // A driver may write -1 where it has no time.
 TEST(SweepLength, OneReturnWithoutTimeIsLeftOutOfTimesWithinTheSecond) {
   for (const PointType type : {PointType::u32, PointType::i32}) {
