@@ -118,6 +118,11 @@ std::string in_ms(double ns) {
   return text.data();
 }
 
+std::string taken_in(std::size_t unit, double sweep_ns) {
+  constexpr std::array<std::string_view, units_ns.size()> names = {"s", "ms", "us", "ns"};
+  return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " + in_ms(sweep_ns);
+}
+
 }  // namespace
 
 std::pair<double, double> returns_extent(const PointCloud& cloud, const PointClock& clock,
@@ -265,7 +270,6 @@ AssumedTimes SweepLengthSearch::found() const {
 AssumedTimes SweepLengthSearch::unit_found() const {
   constexpr std::size_t least_seen = 2;
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
-  constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
   AssumedTimes found{{base_, 0.0, 0, false}, {}, true};
   if (base_ == TimeBase::second) {
     found.said = "point times are ns within the second, which are taken against the stamps";
@@ -276,15 +280,11 @@ AssumedTimes SweepLengthSearch::unit_found() const {
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.
   const bool is_long = length > too_long * spacing, is_short = length < shortest && length < sparse * spacing;
   const std::string apart = "; clouds are " + in_ms(spacing) + " apart";
-  const auto taken_as = [&](std::size_t unit, double sweep_ns) {
-    return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " +
-           in_ms(sweep_ns) + apart;
-  };
   if (!is_long && !is_short) {
     const auto unit = std::find(units_ns.begin(), units_ns.end(), unit_ns_);
     if (from_stamp_ && unit != units_ns.end()) {
       found.times.unit_ns = unit_ns_;
-      found.said = taken_as(static_cast<std::size_t>(unit - units_ns.begin()), length);
+      found.said = taken_in(static_cast<std::size_t>(unit - units_ns.begin()), length) + apart;
     }
     return found;
   }
@@ -297,7 +297,7 @@ AssumedTimes SweepLengthSearch::unit_found() const {
     const double sweep = span * units_ns[i];
     if (sweep < least_turn || sweep > longest * spacing) continue;
     found.times.unit_ns = units_ns[i];
-    found.said = taken_as(i, sweep);
+    found.said = taken_in(i, sweep) + apart;
     return found;
   }
   if (std::isfinite(length))
