@@ -189,10 +189,31 @@ std::vector<TruthSample> walk_of(const score::Truth& truth) {
   return walk;
 }
 
+/// Method i of the run, without its ink.
+ReportMethod method_of(const FinishedRun& run, const score::RunScore& score, std::size_t i, const bim::Plan& plan) {
+  constexpr std::size_t shown_places = 6;  // curves that stay apart
+  const MethodRecord& method = run.record.methods[i];
+  ReportMethod shown;
+  shown.name = method.name;
+  shown.localization = method.localization;
+  shown.samples = samples_of(plan, method, score.truth);
+  add_structure(plan, method, score.methods[i], shown);
+  add_beliefs(plan, method, score.truth, shown);
+  HypothesisHistories histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
+  shown.histories = std::move(histories.shown);
+  shown.other_hypotheses = std::move(histories.others);
+  shown.hypotheses_left_out = histories.left_out;
+  for (HypothesisHistory& history : shown.histories)
+    history.room = bim::room_name(run.building->as_built().rooms, history.room);
+  add_recognised(run, method, score, shown);
+  shown.failed_s = failed_s(shown, score.methods[i]);
+  if (shown.failed_s) shown.slip = slip_before(run.scenario, *shown.failed_s);
+  return shown;
+}
+
 }  // namespace
 
 ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
-  constexpr std::size_t shown_places = 6;  // curves that stay apart
   ReportInput input;
   input.results = read_json(score::write_results(run, score), "results.json");
   input.plan = run.building->plan_as_built();
@@ -213,23 +234,9 @@ ReportInput report_input(const FinishedRun& run, const score::RunScore& score) {
   }
   std::size_t inks = 0;
   for (std::size_t i = 0; i < run.record.methods.size(); ++i) {
-    const MethodRecord& method = run.record.methods[i];
-    ReportMethod shown;
-    shown.name = method.name;
-    shown.localization = method.localization;
+    ReportMethod shown = method_of(run, score, i, input.plan);
     shown.ink = inks;
     if (!is_truth(shown)) ++inks;
-    shown.samples = samples_of(input.plan, method, score.truth);
-    add_structure(input.plan, method, score.methods[i], shown);
-    add_beliefs(input.plan, method, score.truth, shown);
-    HypothesisHistories histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
-    shown.histories = std::move(histories.shown);
-    shown.other_hypotheses = std::move(histories.others);
-    shown.hypotheses_left_out = histories.left_out;
-    for (HypothesisHistory& history : shown.histories) history.room = bim::room_name(rooms, history.room);
-    add_recognised(run, method, score, shown);
-    shown.failed_s = failed_s(shown, score.methods[i]);
-    if (shown.failed_s) shown.slip = slip_before(run.scenario, *shown.failed_s);
     input.methods.push_back(std::move(shown));
   }
   return input;

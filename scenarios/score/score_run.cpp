@@ -6,6 +6,7 @@
 #include "bim/config/number_list.h"
 #include "bim/digest/digest.h"
 #include "scenarios/host/files.h"
+#include "scenarios/metrics/metric_kind.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/score/handover.h"
 #include "scenarios/score/identifiability.h"
@@ -118,16 +119,16 @@ MethodScore score_localizer(const MethodRecord& method, const Reference& referen
 /// Whether an estimate of this kind has a metric when all goes well.
 bool is_asked_for(std::string_view metric, const MethodRecord& method) {
   const slam::Estimate& estimate = method.estimate;
-  if (metric.starts_with("tracking.")) return method.scans > 0 && !method.localization;
+  if (!is_metric_of(metric, method.localization)) return false;
+  if (metric.starts_with("tracking.")) return method.scans > 0;
   if (metric.starts_with("map_")) return !estimate.map_F.empty();
-  if (metric.starts_with("walls.")) return !estimate.planes.empty();
-  if (metric.starts_with("storeys.")) return !estimate.floors.empty() && !method.localization;
-  if (metric.starts_with("loops.")) return estimate.loops.has_value() && !method.localization;
-  if (metric.starts_with("segmentation.")) return !estimate.segmented.empty() && !method.localization;
-  if (metric.starts_with("rooms.")) return !estimate.planes.empty() && !method.localization;
+  if (metric.starts_with("walls.") || metric.starts_with("rooms.")) return !estimate.planes.empty();
+  if (metric.starts_with("storeys.")) return !estimate.floors.empty();
+  if (metric.starts_with("loops.")) return estimate.loops.has_value();
+  if (metric.starts_with("segmentation.")) return !estimate.segmented.empty();
   if (metric.starts_with("localization.nees") || metric == "localization.handover_precision")
     return !method.beliefs.empty();
-  return metric.starts_with("localization.") == method.localization;
+  return true;
 }
 
 /// What is asked of an outside estimate: its own gates, else the strictest bound in the good direction of each metric.

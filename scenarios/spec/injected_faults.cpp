@@ -28,7 +28,8 @@ void add_clock(const sim::ClockConfig& clock, std::vector<std::string>& said) {
   if (clock.offset_s != 0.0)
     said.push_back("stamps of odometry and IMU are " + shown(std::abs(clock.offset_s)) + " s " +
                    (clock.offset_s > 0.0 ? "late" : "early"));
-  if (clock.jitter_s != 0.0) said.push_back("these stamps jitter by " + shown(clock.jitter_s) + " s");
+  const std::string these = clock.offset_s != 0.0 ? "these stamps" : "stamps of odometry and IMU";
+  if (clock.jitter_s != 0.0) said.push_back(these + " jitter by " + shown(clock.jitter_s) + " s");
 }
 
 void add_mount(const sim::MountError& mount, std::vector<std::string>& said) {

@@ -11,6 +11,7 @@
 #include "bim/formats/mesh/mesh_file.h"
 #include "bim/load/foreign_file.h"
 #include "bim/random/stream.h"
+#include "scenarios/metrics/metric_kind.h"
 #include "scenarios/spec/library.h"
 #include "scenarios/spec/method_names.h"
 #include "scenarios/spec/moving.h"
@@ -151,13 +152,9 @@ std::shared_ptr<const ProcessTable> process_table(ScenarioText& text, const Over
 
 /// Why a method of this kind never has a metric, whatever the walk; empty where it may.
 std::string why_never(const std::string& metric, bool localizes) {
-  const auto is_of = [&](std::initializer_list<std::string_view> starts) {
-    return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) { return metric.starts_with(start); });
-  };
-  if (!localizes && is_of({"localization."})) return "it does not localize in the plan, as this metric asks";
-  if (localizes && is_of({"ate_", "rpe_", "drift_", "tracking.", "rooms.", "storeys.", "loops.", "segmentation."}))
-    return "it localizes in the plan, and this metric is of SLAM; `localization.*` would be right";
-  return {};
+  if (is_metric_of(metric, localizes)) return {};
+  if (!localizes) return "it does not localize in the plan, as this metric asks";
+  return "it localizes in the plan, and this metric is of SLAM; `localization.*` would be right";
 }
 
 /// A gate that could only fail is refused before anything is walked.

@@ -9,6 +9,7 @@
 #include "slam/io/bags/bag.h"
 #include "slam/io/bags/bag_source.h"
 #include "slam/io/bags/bag_topics.h"
+#include "slam/io/bags/cloud_times.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/numbered_messages.h"
 #include "slam/io/bags/odometry_motion.h"
@@ -206,26 +207,11 @@ class BagRecording final : public Recording {
     }
   }
 
-  /// True where no cloud of the first three has a stamp. One alone may be at a simulation's start.
-  [[nodiscard]] bool are_unstamped() {
-    constexpr int enough = 3;
-    int clouds = 0;
-    bool stamped = false;
-    show_clouds([&](const PointCloud& cloud) {
-      stamped = stamped || cloud.stamp != 0;
-      return !stamped && ++clouds < enough;
-    });
-    return clouds > 1 && !stamped;
-  }
-
   void find_times() {
-    unstamped_ = are_unstamped();
-    show_clouds([&](const PointCloud& cloud) { return clock_.add(cloud.stamp); });
-    TimeBaseSearch search;
-    show_clouds([&](const PointCloud& cloud) { return search.add(cloud); });
-    SweepLengthSearch lengths(search.base());
-    show_clouds([&](const PointCloud& cloud) { return lengths.add(cloud); });
-    times_ = lengths.found();
+    const ShowClouds show = [this](const std::function<bool(const PointCloud&)>& add) { show_clouds(add); };
+    unstamped_ = are_unstamped(show);
+    clock_ = clock_of_clouds(show);
+    times_ = times_of_clouds(show, clock_);
     if (!topics_.point_times && !times_.readable)
       times_ = {{TimeBase::unknown, 0.0, 0, true}, "point times cannot be read and are left out", false};
   }

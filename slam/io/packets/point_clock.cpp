@@ -24,6 +24,14 @@ constexpr std::array<double, 4> units_ns = {1e9, 1e6, 1e3, 1.0};
 constexpr double least_turn = 5e6;  ///< ns
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// As returns_extent(), of whole ns within the second.
+std::pair<double, double> extent_in_second(const PointCloud& cloud, const PointField& field,
+                                           const std::vector<CloudPoint>& points) {
+  constexpr double middle_ns = 499'999'999.5;
+  const auto [first, last] = returns_extent(cloud, {&field, 1.0, middle_ns}, points, middle_ns);
+  return {first + middle_ns, last + middle_ns};
+}
+
 /// The clocks by which a cloud's times may be read, those from the stamp and those of the day.
 class ClockChoice {
  public:
@@ -43,8 +51,7 @@ class ClockChoice {
   }
   /// Whole ns within the second.
   [[nodiscard]] std::optional<PointClock> of_second() const {
-    const auto [first, last] = returns_extent(cloud_, {&field_, 1.0, 0.0}, points_, unbounded);
-    if (!whole() || !(first >= 0.0 && last < 1e9)) return std::nullopt;
+    if (!whole() || !std::isfinite(extent_in_second(cloud_, field_, points_).first)) return std::nullopt;
     return PointClock{&field_, 1.0, static_cast<double>(cloud_.stamp % second_ns), true};
   }
   /// All points at 0, as before a driver knows the time: that is from neither.
@@ -98,7 +105,8 @@ std::optional<PointClock> find_clock(const PointCloud& cloud, const PointField& 
   return clock;
 }
 
-constexpr int most_without_times = 100;  // of a recording that has none, not all is read
+/// Clouds that tell nothing of their times: 5 minutes of most LiDARs. Of a longer recording not all is read beforehand.
+constexpr int most_without_times = 3000;
 
 /// Whatever its fields are.
 bool is_empty(const PointCloud& cloud) { return cloud.width == 0 || cloud.height == 0; }
@@ -108,6 +116,11 @@ std::string in_ms(double ns) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g ms", 1e-6 * ns);
   return text.data();
+}
+
+std::string taken_in(std::size_t unit, double sweep_ns) {
+  constexpr std::array<std::string_view, units_ns.size()> names = {"s", "ms", "us", "ns"};
+  return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " + in_ms(sweep_ns);
 }
 
 }  // namespace
@@ -160,7 +173,8 @@ bool TimeBaseSearch::add(const PointCloud& cloud) {
   if (time == nullptr || time->type != PointType::f64) found_ = TimeBase::unknown;
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
-  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; })) return true;
+  if (std::none_of(points.begin(), points.end(), [](const CloudPoint& point) { return point.valid; }))
+    return ++without_times_ < most_without_times;
   const ClockChoice choice(cloud, *time, points);
   if (choice.is_without_times()) return ++without_times_ < most_without_times;
   const std::optional<PointClock> of_day = choice.of_day();
@@ -179,8 +193,12 @@ bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) 
   constexpr double far_ns = 0.2e9, share = 0.25;
   if (found_) return false;
   const std::vector<CloudPoint> points = read_untimed(cloud);
-  const auto [first, last] = returns_extent(cloud, {&time, 1.0, 0.0}, points, unbounded);
-  if (!(last > first)) return true;  // no times yet
+  const auto [first, last] = extent_in_second(cloud, time, points);
+  if (!(last > first)) return ++without_times_ < most_without_times;
+  if (!std::isfinite(first)) {
+    found_ = TimeBase::unknown;
+    return false;
+  }
   // Where the second ends within the cloud, the first point is the least of those before that.
   const bool goes_round = last - first > 0.5e9;
   const double begin = goes_round ? returns_extent(cloud, {&time, 1.0, 0.0, true}, points, unbounded).first : first;
@@ -191,10 +209,9 @@ bool TimeBaseSearch::add_whole(const PointCloud& cloud, const PointField& time) 
   most_moved_ns_ = std::max(most_moved_ns_, std::abs(moved));
   most_moved_from_stamp_ns_ = std::max(most_moved_from_stamp_ns_, std::abs(std::remainder(moved - passed, 1e9)));
   ++whole_;
-  const bool fits = first >= 0.0 && last < 1e9;
   const bool grows = most_moved_ns_ > far_ns, follows = most_moved_from_stamp_ns_ < share * far_ns;
-  if (!fits || (whole_ >= least && !grows && !follows)) found_ = TimeBase::unknown;
-  if (fits && whole_ >= least && grows) found_ = follows ? TimeBase::second : TimeBase::unknown;
+  if (whole_ >= least && !grows && !follows) found_ = TimeBase::unknown;
+  if (whole_ >= least && grows) found_ = follows ? TimeBase::second : TimeBase::unknown;
   if (whole_ >= enough && !found_) found_ = TimeBase::unknown;
   return !found_;
 }
@@ -223,9 +240,8 @@ bool SweepLengthSearch::add(const PointCloud& cloud) {
   const auto [first, last] = returns_extent(cloud, {time, 1.0, 0.0}, points, unbounded);
   const std::optional<PointClock> clock = find_clock(cloud, *time, points, {base_, 0.0, 0, false});
   readable_ = readable_ && clock;
-  if (!(last > first))
-    return true;  // a driver may need long to know the time, and the unit is told by what it then writes
-  if (!std::isfinite(first)) return ++without_times_ < most_without_times;
+  // A driver may need long to know the time, and the unit is told by what it then writes.
+  if (!(last > first) || !std::isfinite(first)) return ++without_times_ < most_without_times;
   const auto [from, to] = clock ? returns_extent(cloud, *clock, points, longest_sweep_ns) : std::pair(0.0, 0.0);
   from_stamp_ = from_stamp_ && (!clock || clock->zero_ns == 0.0);
   const bool is_float = time->type == PointType::f32 || time->type == PointType::f64;
@@ -254,7 +270,6 @@ AssumedTimes SweepLengthSearch::found() const {
 AssumedTimes SweepLengthSearch::unit_found() const {
   constexpr std::size_t least_seen = 2;
   constexpr double shortest = 2e6, too_long = 1.5, longest = 1.3, sparse = 1.0 / 3.0;  // ns; of the spacing
-  constexpr std::array<std::string_view, 4> names = {"s", "ms", "us", "ns"};
   AssumedTimes found{{base_, 0.0, 0, false}, {}, true};
   if (base_ == TimeBase::second) {
     found.said = "point times are ns within the second, which are taken against the stamps";
@@ -265,15 +280,11 @@ AssumedTimes SweepLengthSearch::unit_found() const {
   // Of a fast head only some sweeps may have been kept, so that a sweep may be much shorter than the spacing.
   const bool is_long = length > too_long * spacing, is_short = length < shortest && length < sparse * spacing;
   const std::string apart = "; clouds are " + in_ms(spacing) + " apart";
-  const auto taken_as = [&](std::size_t unit, double sweep_ns) {
-    return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " +
-           in_ms(sweep_ns) + apart;
-  };
   if (!is_long && !is_short) {
     const auto unit = std::find(units_ns.begin(), units_ns.end(), unit_ns_);
     if (from_stamp_ && unit != units_ns.end()) {
       found.times.unit_ns = unit_ns_;
-      found.said = taken_as(static_cast<std::size_t>(unit - units_ns.begin()), length);
+      found.said = taken_in(static_cast<std::size_t>(unit - units_ns.begin()), length) + apart;
     }
     return found;
   }
@@ -286,7 +297,7 @@ AssumedTimes SweepLengthSearch::unit_found() const {
     const double sweep = span * units_ns[i];
     if (sweep < least_turn || sweep > longest * spacing) continue;
     found.times.unit_ns = units_ns[i];
-    found.said = taken_as(i, sweep);
+    found.said = taken_in(i, sweep) + apart;
     return found;
   }
   if (std::isfinite(length))

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,9 +20,12 @@ struct PointClock {
   double zero_ns = 0.0;    ///< the cloud's stamp where the times are those of the day or of the second, else 0
   bool of_second = false;  ///< the times begin anew with each second
 
+  /// Not a number where it is none of a second.
   [[nodiscard]] double nanoseconds(const std::uint8_t* point) const {
-    const double t = unit_ns * number_at(point + field->offset, field->type) - zero_ns;
-    return of_second ? std::remainder(t, 1e9) : t;
+    const double number = unit_ns * number_at(point + field->offset, field->type);
+    if (!of_second) return number - zero_ns;
+    const bool is_time = number >= 0.0 && number < 1e9;
+    return is_time ? std::remainder(number - zero_ns, 1e9) : std::numeric_limits<double>::quiet_NaN();
   }
 };
 

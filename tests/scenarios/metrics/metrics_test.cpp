@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "scenarios/metrics/metric_kind.h"
 #include "scenarios/spec/scenario.h"
 
 namespace plumbline::scenarios::score {
@@ -39,6 +40,16 @@ TEST(Metrics, AbsentNotZero) {
   with_rooms.rooms = RoomScore{};
   EXPECT_EQ(to_results(with_rooms).find("rooms")->find("found")->as_double(), 0.0);
   EXPECT_EQ(to_results(with_rooms).find("rooms")->find("precision"), nullptr);
+}
+
+TEST(Metrics, AreOfOneKindOfMethodOrOfBoth) {
+  for (const MetricRow& row : metrics()) {
+    const bool of_both = row.name.starts_with("map_") || row.name.starts_with("walls.");
+    EXPECT_EQ(is_metric_of(row.name, true) && is_metric_of(row.name, false), of_both) << row.name;
+    EXPECT_TRUE(is_metric_of(row.name, true) || is_metric_of(row.name, false)) << row.name;
+  }
+  EXPECT_FALSE(is_metric_of("coverage", true));
+  EXPECT_FALSE(is_metric_of("localization.nees", false));
 }
 
 TEST(Gates, PassOnlyOnAPresentMetricOfAWholeRun) {

@@ -41,6 +41,14 @@ TEST(InjectedFaults, OfAPresetHaveItsSizes) {
   EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](const std::string& one) { return one.starts_with("the feet"); }));
 }
 
+TEST(InjectedFaults, OfOneClockAreSaidByItsName) {
+  using Said = std::vector<std::string>;
+  EXPECT_EQ(injected_faults(with_faults("faults: {clock_jitter_s: 0.005}\n")),
+            Said{"stamps of odometry and IMU jitter by 0.005 s"});
+  EXPECT_EQ(injected_faults(with_faults("faults: {clock_offset_s: 0.1, clock_jitter_s: 0.005}\n")),
+            (Said{"stamps of odometry and IMU are 0.1 s late", "these stamps jitter by 0.005 s"}));
+}
+
 TEST(InjectedFaults, TheSlipBeforeAMomentIsFound) {
   const Scenario scenario = with_faults("faults: {slip_mps: 1}\n");
   double t_s = 0.0;

@@ -90,6 +90,22 @@ TEST_F(SensorsOfScenarios, AGateIsOfALabel) {
   EXPECT_NE(error_of("methods: [vgicp]\n" + gate).find("'vgicp.lidar' is not one of"), std::string::npos);
 }
 
+TEST_F(SensorsOfScenarios, AGateIsOfAMetricThatItsMethodMayHave) {
+  const auto gated = [](const std::string& method, const std::string& metric) {
+    return "methods: [" + method + "]\ngates: [{metric: " + metric + ", method: " + method + ", min: 0.1}]\n";
+  };
+  const std::string localizer = "s_graph_localization";
+  for (const char* metric : {"coverage", "tracking.lost_share", "rooms.recall", "drift_10m_percent"})
+    EXPECT_NE(error_of(gated(localizer, metric)).find("never has '" + std::string(metric) + "': it localizes"),
+              std::string::npos)
+        << metric;
+  for (const char* metric : {"map_rmse_m", "walls.recall", "localization.yaw_rmse_deg"})
+    EXPECT_EQ(resolved(gated(localizer, metric)).gates.size(), 1U) << metric;
+  for (const char* metric : {"coverage", "rooms.recall", "map_rmse_m", "walls.recall"})
+    EXPECT_EQ(resolved(gated("vgicp", metric)).gates.size(), 1U) << metric;
+  EXPECT_NE(error_of(gated("vgicp", "localization.hypotheses")).find("it does not localize"), std::string::npos);
+}
+
 TEST_F(SensorsOfScenarios, FaultsAreNamedWhereTheyStand) {
   EXPECT_NE(error_of("methods: [vgicp, odometry.lidar]\n").find("s.yaml:4:18: method 'odometry' needs odometry"),
             std::string::npos);

@@ -239,9 +239,9 @@ TEST(PointCloud, ACloudWithoutTimesDecidesNoTimeBase) {
   EXPECT_EQ(search.base(), TimeBase::day);
   EXPECT_NEAR(static_cast<double>(scan_of(good, {search.base(), 0.0}).stamp - good.stamp), 0.1e9, 1e3);
   EXPECT_EQ(scan_of(empty, {search.base(), 0.0}).stamp, empty.stamp);
-  int asked = 0;
-  for (TimeBaseSearch never; asked < 1000 && never.add(empty); ++asked) EXPECT_EQ(never.base(), TimeBase::unknown);
-  EXPECT_LT(asked, 1000);
+  TimeBaseSearch never;
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(never.add(empty));
+  EXPECT_EQ(never.base(), TimeBase::unknown);
 }
 
 /// A cloud of a driver: its fields, and the time of two points 60 and 100 ms after `stamp` as `write` puts it.

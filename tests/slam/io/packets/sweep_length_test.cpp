@@ -6,33 +6,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "slam/io/packets/point_cloud.h"
+#include "tests/slam/io/packets/turning_cloud.h"
 
 namespace plumbline::slam {
 namespace {
-
-constexpr int points = 40;
-
-/// A turn of returns whose times go evenly from `first` to `last`.
-template <class T>
-PointCloud turn(double stamp_s, const std::string& name, PointType type, T first, T last) {
-  PointCloud cloud;
-  cloud.stamp = std::llround(1e9 * stamp_s);
-  cloud.fields = {{"x", 0, PointType::f32}, {"y", 4, PointType::f32}, {"z", 8, PointType::f32}, {name, 12, type}};
-  cloud.point_step = 12 + sizeof(T);
-  cloud.width = points;
-  cloud.height = 1;
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.data.resize(cloud.row_step);
-  for (int i = 0; i < points; ++i) {
-    std::uint8_t* at = &cloud.data[static_cast<std::size_t>(i) * cloud.point_step];
-    const float xyz[3] = {5.0F, 0.1F * static_cast<float>(i), 0.0F};
-    const T time = static_cast<T>(first + (last - first) * static_cast<T>(i) / static_cast<T>(points - 1));
-    std::memcpy(at, xyz, sizeof xyz);
-    std::memcpy(at + 12, &time, sizeof time);
-  }
-  return cloud;
-}
 
 /// From clouds so many seconds apart.
 template <class T>
@@ -109,18 +86,6 @@ TEST(SweepLength, TheUnitIsToldByTheFirstCloudsWithTimes) {
   EXPECT_EQ(search.found().times.unit_ns, 1e3) << search.found().said;
 }
 
-/// A cloud whose times begin anew with each second.
-PointCloud turn_of_second(double stamp_s) {
-  PointCloud cloud = turn<std::uint32_t>(stamp_s, "t", PointType::u32, 0, 99'000'000);
-  for (std::size_t i = 0; i < cloud.width; ++i) {
-    std::uint32_t time = 0;
-    std::memcpy(&time, &cloud.data[i * cloud.point_step + 12], sizeof time);
-    time = static_cast<std::uint32_t>((cloud.stamp + time) % 1'000'000'000);
-    std::memcpy(&cloud.data[i * cloud.point_step + 12], &time, sizeof time);
-  }
-  return cloud;
-}
-
 TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
   TimeBaseSearch base;
   const double first_s = 1'700'000'000.35;
@@ -135,6 +100,44 @@ TEST(SweepLength, WholeNumbersMayBeginAnewWithEachSecond) {
     const Scan scan = scan_of(cloud, found.times);
     EXPECT_NEAR(static_cast<double>(scan.stamp - cloud.stamp), 0.099e9, 1.0) << k;
     EXPECT_NEAR(length_s(cloud, found.times), 0.099, 1e-6) << k;
+  }
+}
+
+// Of a long recording whose clouds have no times, not all is read beforehand.
+TEST(SweepLength, TheSearchForTimesEnds) {
+  const PointCloud whole = turn<std::uint32_t>(10.0, "t", PointType::u32, 0, 0);
+  const PointCloud of_floats = turn(10.0, "timestamp", PointType::f64, 0.0, 0.0);
+  PointCloud without_returns = turn(10.0, "timestamp", PointType::f64, 10.0, 10.1);
+  for (std::size_t at = 0; at < without_returns.data.size(); at += without_returns.point_step)
+    std::memset(&without_returns.data[at], 0, 12);
+  for (const PointCloud& cloud : {PointCloud{}, whole, of_floats, without_returns}) {
+    int asked = 0;
+    for (TimeBaseSearch base; asked < 5000 && base.add(cloud); ++asked) continue;
+    EXPECT_EQ(asked, 2999);
+    asked = 0;
+    for (SweepLengthSearch search(TimeBase::unknown); asked < 5000 && search.add(cloud); ++asked) continue;
+    EXPECT_EQ(asked, 2999);
+  }
+}
+
+// A driver may write -1 where it has no time.
+TEST(SweepLength, OneReturnWithoutTimeIsLeftOutOfTimesWithinTheSecond) {
+  for (const PointType type : {PointType::u32, PointType::i32}) {
+    const auto spoilt = [&](int k) {
+      PointCloud cloud = turn_of_second(1'700'000'000.35 + 0.1 * k, 200);
+      cloud.fields.back().type = type;
+      if (k % 3 == 1) std::memset(&cloud.data[100 * cloud.point_step + 12], 0xFF, 4);
+      return cloud;
+    };
+    TimeBaseSearch base;
+    for (int k = 0; k < 30 && base.add(spoilt(k)); ++k) continue;
+    ASSERT_EQ(base.base(), TimeBase::second);
+    for (int k = 0; k < 30; ++k) {
+      const Scan scan = scan_of(spoilt(k), {TimeBase::second, 0.0});
+      EXPECT_EQ(std::count_if(scan.range_m.begin(), scan.range_m.end(), [](double range) { return range > 0.0; }),
+                k % 3 == 1 ? 199 : 200);
+      EXPECT_NEAR(length_s(spoilt(k), {TimeBase::second, 0.0}), 0.099, 1e-6) << k;
+    }
   }
 }
 
