@@ -133,6 +133,23 @@ TEST(Adjacency, NamesDoorsWindowsAndVoids) {
   EXPECT_EQ(pairs[2].by, Passage::opening_void);
 }
 
+/// Of walls before each other, in a building without rooms.
+TEST(Adjacency, AHoleThroughTwoWallsIsOneWithoutRooms) {
+  Building building;
+  for (const double y : {0.0, 0.3, 2.0}) {
+    Wall wall;
+    wall.a = {0, y};
+    wall.b = {8, y};
+    Opening hole;
+    hole.kind = OpeningKind::opening_void;
+    hole.s_m = 3.0;
+    hole.wall = static_cast<int>(building.walls.size());
+    building.walls.push_back(wall);
+    building.openings.push_back(hole);
+  }
+  EXPECT_EQ(continued_openings(building), (std::vector<bool>{false, true, false}));
+}
+
 /// A flight from one room up into another, on the storey above.
 TEST(Adjacency, StairJoinsRoomsAcrossStoreys) {
   Building building;
