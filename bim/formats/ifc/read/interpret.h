@@ -108,6 +108,7 @@ class Interpreter {
   /// The building as if that of a storey were the only one of the file.
   [[nodiscard]] Building only_building_of(int storey) const;
   void set_heights();
+  [[nodiscard]] std::optional<Room> room_of(const StepProduct& space);
   void add_missing_rooms();
   struct NamedPlace {
     Eigen::Vector2d inner;
