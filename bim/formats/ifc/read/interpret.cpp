@@ -224,9 +224,8 @@ void Interpreter::sort_all() {
   });
 }
 
-void Interpreter::add_missing_rooms() {
+void Interpreter::add_missing_rooms(const std::vector<NamedPlace>& places) {
   const std::vector<Room> given = building_.rooms;
-  const std::vector<NamedPlace> places = places_of_outlines();
   const bool any_space = std::any_of(model_.products.begin(), model_.products.end(), [](const StepProduct& product) {
     return product.kind == StepClass::space && product.space_use == SpaceUse::room;
   });
@@ -257,9 +256,11 @@ void Interpreter::add_missing_rooms() {
     for (Room& room : rooms) {
       constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
       const auto place = std::find_if(places.begin(), places.end(), [&](const NamedPlace& p) {
-        return std::abs(room.z0_m - p.z_m) < over_floor_m && room.contains(p.inner);
+        return !p.name.empty() && std::abs(room.z0_m - p.z_m) < over_floor_m && room.contains(p.inner);
       });
-      if (place != places.end()) room.name = place->name;
+      if (place == places.end()) continue;
+      room.name = place->name;
+      placed_.insert(place->space->step_id);
     }
     const auto stands_here = [&](const auto& element) { return element.storey == storey; };
     const auto is_front = [&](const Obstacle& obstacle) {
@@ -313,8 +314,9 @@ Building Interpreter::finish() {
              return storey.id == warning.element && storey.kind == StoreyKind::roof;
            });
   });
-  add_missing_rooms();
-  add_rooms_of_outlines();
+  std::vector<NamedPlace> places = places_of_outlines();
+  add_missing_rooms(places);
+  add_rooms_of_outlines(std::move(places));
   add_materials();
   warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {
