@@ -38,6 +38,24 @@ Region2 without_rooms(const Region2& region, const std::vector<const Room*>& roo
   return free;
 }
 
+/// Whether an outline holds several rooms that fill most of it: that of a flat or a storey, and no room.
+bool covers_rooms(const Region2& outline, const std::vector<const Room*>& rooms) {
+  constexpr double least_share = 0.95, least_filled = 0.5;
+  double filled_m2 = 0.0;
+  int held = 0;
+  const Eigen::AlignedBox2d box = outline.empty() ? Eigen::AlignedBox2d() : box_of(outline.front().outer);
+  for (const Room* room : rooms) {
+    const double own_m2 = room->area_m2();
+    // Exact booleans of all neighbours would take long.
+    const Eigen::AlignedBox2d own_box = box_of(room->polygon);
+    if (!own_box.intersects(box) || own_box.intersection(box).volume() < least_share * own_m2) continue;
+    if (area(intersect(outline, {room->outline()})) < least_share * own_m2) continue;
+    filled_m2 += own_m2;
+    ++held;
+  }
+  return held >= 2 && filled_m2 >= least_filled * area(outline);
+}
+
 }  // namespace
 
 /// Where the spaces without a body lie, of those that have an outline. Of one place the first by id.
@@ -61,8 +79,8 @@ std::vector<Interpreter::NamedPlace> Interpreter::places_of_outlines() const {
   return places;
 }
 
-/// The largest piece of a place that is free of rooms and walls. Nullopt where there is none and where a room at least
-/// half as large as the outline holds its inner point.
+/// The largest piece of a place that is free of rooms and walls. Nullopt where there is none, where a room at least
+/// half as large as the outline holds its inner point, and where the outline holds several rooms.
 std::optional<PolygonWithHoles2> Interpreter::free_piece(const NamedPlace& place, const BoxIndex& room_boxes,
                                                          const BoxIndex& wall_boxes) const {
   constexpr double least_m2 = 0.5, least_share = 0.5;
@@ -74,6 +92,7 @@ std::optional<PolygonWithHoles2> Interpreter::free_piece(const NamedPlace& place
     rooms.push_back(&room);
   }
   const Region2 outline = unite(std::vector<Polygon2>{place.outline});
+  if (covers_rooms(outline, rooms)) return std::nullopt;
   std::vector<Polygon2> walls;
   for (const int i : wall_boxes.near(place.outline, 0.0)) {
     const Wall& wall = building_.walls[static_cast<std::size_t>(i)];

@@ -211,6 +211,24 @@ TEST(Spaces, WithoutABodyGoRoundTheRoomsWithin) {
     }
 }
 
+TEST(Spaces, WithoutABodyThatCoverOthersAreNoRooms) {
+  for (const bool bodies : {true, false}) {
+    Sketch sketch;
+    two_rooms(sketch);
+    const double top_m = bodies ? 4.9 : 4.7;  // what is left above the kitchen is no room
+    sketch.bare_space("flat", "FootPrint", sketch.polyline({{0, 0}, {8, 0}, {8, 6}, {0, 6}}));
+    sketch.bare_space("office", "Body", sketch.box(4.15, 0.1, 0, 7.9, 5.9, 2.8));
+    if (bodies)
+      sketch.bare_space("kitchen", "Body", sketch.box(0.1, 0.1, 0, 3.85, top_m, 2.8));
+    else
+      sketch.bare_space("kitchen", "FootPrint", sketch.polyline({{0, 0}, {3.9, 0}, {3.9, top_m}, {0, top_m}}));
+    const Building building = read(sketch);
+    ASSERT_EQ(building.rooms.size(), 2u);
+    EXPECT_EQ(room_named(building, "kitchen").polygon.size(), 4u);
+    EXPECT_EQ(room_named(building, "office").polygon.size(), 4u);
+  }
+}
+
 TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
   Sketch sketch;
   sketch.storey(0);
