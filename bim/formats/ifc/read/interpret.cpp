@@ -317,6 +317,7 @@ Building Interpreter::finish() {
   std::vector<NamedPlace> places = places_of_outlines();
   add_missing_rooms(places);
   add_rooms_of_outlines(std::move(places));
+  warn_of_outlines();
   add_materials();
   warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {

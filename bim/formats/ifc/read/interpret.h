@@ -122,6 +122,7 @@ class Interpreter {
   [[nodiscard]] std::optional<PolygonWithHoles2> free_piece(const NamedPlace& place, const BoxIndex& room_boxes,
                                                             const BoxIndex& wall_boxes) const;
   void add_rooms_of_outlines(std::vector<NamedPlace> places);
+  void warn_of_outlines();
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);

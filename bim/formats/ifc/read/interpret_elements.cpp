@@ -155,10 +155,7 @@ void Interpreter::add_rooms() {
       left_out.push_back(product.name + (product.space_use == SpaceUse::gross ? " (gross area)" : " (outside)"));
       continue;
     }
-    if (product.body.empty() && !product.outline.empty()) {
-      warn(product, "no_body", "has no body that can be read; its outline on the plan says where it is");
-      continue;
-    }
+    if (product.body.empty() && !product.outline.empty()) continue;  // comes when all rooms with a body are known
     if (std::optional<Room> room = room_of(product)) building_.rooms.push_back(std::move(*room));
   }
   leave_out_covering_rooms(building_.rooms, left_out);

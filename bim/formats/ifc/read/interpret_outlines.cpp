@@ -63,7 +63,7 @@ std::vector<Interpreter::NamedPlace> Interpreter::places_of_outlines() const {
   constexpr std::size_t most_corners = 1000;  // of a room; bounds the time
   std::vector<NamedPlace> places;
   for (const StepProduct& product : model_.products) {
-    if (product.kind != StepClass::space || product.space_use != SpaceUse::room || product.name.empty()) continue;
+    if (product.kind != StepClass::space || product.space_use != SpaceUse::room) continue;
     if (product.outline.size() < 3 || product.outline.size() > most_corners) continue;
     Polygon2 outline;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -136,6 +136,18 @@ void Interpreter::add_rooms_of_outlines(std::vector<NamedPlace> places) {
     placed_.insert(room.step_id);
     room_boxes.add(room.polygon);
     building_.rooms.push_back(std::move(room));
+  }
+}
+
+/// Says of every space without a body but with an outline what that was good for.
+void Interpreter::warn_of_outlines() {
+  for (const StepProduct& product : model_.products) {
+    if (product.kind != StepClass::space || product.space_use != SpaceUse::room) continue;
+    if (!product.body.empty() || product.outline.empty()) continue;
+    warn(product, "no_body",
+         placed_.contains(product.step_id)
+             ? "has no body that can be read; its outline on the plan says where it is"
+             : "has no body that can be read, nor an outline where a room is missing, and is left out");
   }
 }
 

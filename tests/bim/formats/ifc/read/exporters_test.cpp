@@ -229,6 +229,23 @@ TEST(Spaces, WithoutABodyThatCoverOthersAreNoRooms) {
   }
 }
 
+TEST(Spaces, WithoutABodyAreSaidToBeLeftOutWhereTheyAre) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.bare_space("", "FootPrint", sketch.polyline({{4, 0}, {8, 0}, {8, 6}, {4, 6}}));
+  sketch.bare_space("bow", "FootPrint", sketch.polyline({{4.3, 0.3}, {7.7, 5.7}, {7.7, 0.3}, {4.3, 5.7}}));
+  sketch.bare_space("twin", "FootPrint", sketch.polyline({{0.2, 0.2}, {3.8, 0.2}, {3.8, 5.8}, {0.2, 5.8}}));
+  sketch.bare_space("kitchen", "Body", sketch.box(0.1, 0.1, 0, 3.85, 5.9, 2.8));
+  const Building building = read(sketch);
+  EXPECT_EQ(building.rooms.size(), 2u) << "one needs no name";
+  EXPECT_EQ(count(building, "inferred_room"), 1);
+  EXPECT_EQ(count(building, "no_body"), 3);
+  const auto left_out = [](const Warning& w) {
+    return w.kind == "no_body" && w.text.find("left out") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(building.warnings.begin(), building.warnings.end(), left_out), 2);
+}
+
 TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
   Sketch sketch;
   sketch.storey(0);
