@@ -117,6 +117,7 @@ class Interpreter {
     Polygon2 outline;
     const StepProduct* space = nullptr;
   };
+  void name_by_outlines(const std::vector<NamedPlace>& places, std::vector<Room>& rooms);
   void add_missing_rooms(const std::vector<NamedPlace>& places);
   [[nodiscard]] std::vector<NamedPlace> places_of_outlines() const;
   [[nodiscard]] std::optional<PolygonWithHoles2> free_piece(const NamedPlace& place, const BoxIndex& room_boxes,
