@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "bim/model/boxes.h"
+
 namespace plumbline::bim {
 namespace {
 
@@ -28,19 +30,23 @@ void add(std::vector<Adjacent>& list, int a, int b, Passage by, const std::strin
   list.push_back({a, b, by, element, width_m});
 }
 
+constexpr double hole_m = 0.5;  // between the middles of one hole's openings, across their walls
+
+/// On the plan, in the middle of its wall.
+Eigen::Vector2d middle(const Building& building, const Opening& opening) {
+  const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
+  return wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
+}
+
 /// Whether two openings of different walls that stand upon or before each other are one hole.
 bool is_same_hole(const Building& building, const Opening& p, const Opening& q) {
-  constexpr double apart_m = 0.5, upon_m = 0.05, parallel = 0.05;
+  constexpr double upon_m = 0.05, parallel = 0.05;
   if (p.wall == q.wall || p.z0_m > q.z1_m + upon_m || q.z0_m > p.z1_m + upon_m) return false;
-  const auto middle = [&](const Opening& opening) -> Eigen::Vector2d {
-    const Wall& wall = building.walls[static_cast<std::size_t>(opening.wall)];
-    return wall.a + opening.s_m * wall.direction() + (wall.offset_m + 0.5 * wall.thickness_m) * wall.left();
-  };
   const Wall& wall = building.walls[static_cast<std::size_t>(q.wall)];
-  const Eigen::Vector2d away = middle(p) - middle(q);
+  const Eigen::Vector2d away = middle(building, p) - middle(building, q);
   return std::abs(building.walls[static_cast<std::size_t>(p.wall)].direction().dot(wall.left())) < parallel &&
          std::abs(away.dot(wall.direction())) < 0.5 * std::max(p.width_m, q.width_m) &&
-         std::abs(away.dot(wall.left())) < apart_m;
+         std::abs(away.dot(wall.left())) < hole_m;
 }
 
 }  // namespace
@@ -49,16 +55,25 @@ std::vector<bool> continued_openings(const Building& building) {
   const std::vector<Opening>& openings = building.openings;
   std::vector<bool> continued(openings.size(), false);
   std::map<std::pair<int, int>, std::vector<std::size_t>> by_rooms;
-  for (std::size_t i = 0; i < openings.size(); ++i)
-    if (openings[i].kind != OpeningKind::window && openings[i].wall >= 0 &&
-        openings[i].rooms[0] != openings[i].rooms[1])
-      by_rooms[std::minmax(openings[i].rooms[0], openings[i].rooms[1])].push_back(i);
-  for (const auto& [rooms, group] : by_rooms)
-    for (const std::size_t i : group)
-      continued[i] =
-          openings[i].kind == OpeningKind::opening_void && std::any_of(group.begin(), group.end(), [&](std::size_t k) {
-            return (openings[k].kind == OpeningKind::door || k < i) && is_same_hole(building, openings[i], openings[k]);
-          });
+  double widest_m = 0.0;
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    if (openings[i].kind == OpeningKind::window || openings[i].wall < 0) continue;
+    by_rooms[std::minmax(openings[i].rooms[0], openings[i].rooms[1])].push_back(i);
+    widest_m = std::max(widest_m, openings[i].width_m);
+  }
+  for (const auto& same_rooms : by_rooms) {
+    const std::vector<std::size_t>& group = same_rooms.second;
+    BoxIndex middles;
+    for (const std::size_t i : group) middles.add({middle(building, openings[i])});
+    for (const std::size_t i : group) {
+      if (openings[i].kind != OpeningKind::opening_void) continue;
+      const std::vector<int> near = middles.near({middle(building, openings[i])}, hole_m + 0.5 * widest_m);
+      continued[i] = std::any_of(near.begin(), near.end(), [&](int n) {
+        const std::size_t k = group[static_cast<std::size_t>(n)];
+        return (openings[k].kind == OpeningKind::door || k < i) && is_same_hole(building, openings[i], openings[k]);
+      });
+    }
+  }
   return continued;
 }
 

@@ -33,23 +33,6 @@ double common_height(const Room& room, const Wall& wall, const AdjacencyConfig& 
   return std::min({room.z1_m, room.z0_m + config.walking_m, wall.z1_m}) - std::max(room.z0_m, wall.z0_m);
 }
 
-/// The smallest of the given rooms that holds the point at the height z, or -1.
-int room_among(const Building& building, const std::vector<int>& rooms, const Eigen::Vector2d& p, double z,
-               const AdjacencyConfig& config) {
-  int smallest = -1;
-  double least_m2 = 0.0;
-  for (const int i : rooms) {
-    const Room& room = building.rooms[static_cast<std::size_t>(i)];
-    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
-    if (!at_height || !room.contains(p)) continue;
-    const double area_m2 = room.area_m2();
-    if (smallest >= 0 && area_m2 >= least_m2) continue;
-    smallest = i;
-    least_m2 = area_m2;
-  }
-  return smallest;
-}
-
 /// Those of the given walls whose sides a room's outline runs along.
 std::vector<int> walls_among(const Building& building, const Room& room, const std::vector<int>& walls,
                              const AdjacencyConfig& config) {
@@ -121,7 +104,24 @@ std::vector<Polygon2> clear_outlines(const Polygon2& outline, const std::vector<
 }
 
 int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m, const AdjacencyConfig& config) {
-  return room_among(building, boxes_of(building.rooms).near({p}, 0.0), p, sill_m + config.above_sill_m, config);
+  return room_among(building, boxes_of(building.rooms).near({p}, 0.0), p, sill_m, config);
+}
+
+int room_among(const Building& building, const std::vector<int>& rooms, const Eigen::Vector2d& p, double sill_m,
+               const AdjacencyConfig& config) {
+  const double z = sill_m + config.above_sill_m;
+  int smallest = -1;
+  double least_m2 = 0.0;
+  for (const int i : rooms) {
+    const Room& room = building.rooms[static_cast<std::size_t>(i)];
+    const bool at_height = z >= room.z0_m - config.below_floor_m && z <= room.z1_m;
+    if (!at_height || !room.contains(p)) continue;
+    const double area_m2 = room.area_m2();
+    if (smallest >= 0 && area_m2 >= least_m2) continue;
+    smallest = i;
+    least_m2 = area_m2;
+  }
+  return smallest;
 }
 
 void find_room_walls(Building& building, const AdjacencyConfig& config) {
@@ -141,9 +141,8 @@ void find_opening_rooms(Building& building, const AdjacencyConfig& config) {
     const Interval depth = depth_in_wall(opening, wall);
     const double left = depth.high + config.step_m, right = depth.low - config.step_m;
     const std::array<Eigen::Vector2d, 2> points = {on_line + left * wall.left(), on_line + right * wall.left()};
-    const double z = opening.z0_m + config.above_sill_m;
     for (std::size_t side = 0; side < points.size(); ++side)
-      opening.rooms[side] = room_among(building, boxes.near({points[side]}, 0.0), points[side], z, config);
+      opening.rooms[side] = room_among(building, boxes.near({points[side]}, 0.0), points[side], opening.z0_m, config);
   }
 }
 

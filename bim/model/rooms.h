@@ -40,6 +40,9 @@ struct AdjacencyConfig {
 /// -1: what stands free in a room lies within its outline. Of equal ones the first.
 [[nodiscard]] int room_at(const Building& building, const Eigen::Vector2d& p, double sill_m,
                           const AdjacencyConfig& config = {});
+/// The same of the given rooms, such as those near the point.
+[[nodiscard]] int room_among(const Building& building, const std::vector<int>& rooms, const Eigen::Vector2d& p,
+                             double sill_m, const AdjacencyConfig& config = {});
 
 /// Fills Room::walls of every room that names none.
 void find_room_walls(Building& building, const AdjacencyConfig& config = {});

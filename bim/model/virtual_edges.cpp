@@ -153,6 +153,7 @@ class EdgeFinder {
   EdgeFinder(const Building& building, const Surroundings& around, int room, const AdjacencyConfig& config)
       : building_(building),
         blockers_(around.blockers),
+        room_boxes_(around.room_boxes),
         index_(room),
         room_(building.rooms[static_cast<std::size_t>(room)]),
         near_blockers_(around.blocker_boxes.near(room_.polygon, passage_m)),
@@ -215,21 +216,25 @@ class EdgeFinder {
   [[nodiscard]] int beyond(const Edge& edge, const Stretch& stretch) const {
     constexpr double step_m = 0.05;
     const Eigen::Vector2d u = edge.along(), middle = edge.at((stretch.from + stretch.to) / 2.0), out(u.y(), -u.x());
-    for (double far = config_.step_m; far <= passage_m; far += step_m) {
-      const int room = room_at(building_, middle + far * out, room_.z0_m, config_);
+    const Edge way{middle, middle + passage_m * out};
+    const std::vector<int> rooms = room_boxes_.near({way.a, way.b}, 0.0);
+    const double free_m = free_length(way);
+    for (double far = std::min(config_.step_m, 0.5 * free_m); far < free_m; far += step_m) {
+      const int room = room_among(building_, rooms, middle + far * out, room_.z0_m, config_);
       if (room >= 0) return room == index_ ? -1 : room;
-      if (is_blocked(middle + far * out)) return -1;
     }
     return -1;
   }
 
-  [[nodiscard]] bool is_blocked(const Eigen::Vector2d& p) const {
-    return std::any_of(near_blockers_.begin(), near_blockers_.end(), [&](int index) {
+  /// Length of a way up to the first thing that stands in it, however thin, m.
+  [[nodiscard]] double free_length(const Edge& way) const {
+    double free_m = way.length();
+    for (const int index : near_blockers_) {
       const Blocker& blocker = blockers_[static_cast<std::size_t>(index)];
-      return blocker.hull.size() >= 3 &&
-             common_height(room_, blocker.z0_m, blocker.z1_m, config_) > config_.z_overlap_m &&
-             contains(blocker.hull, p);
-    });
+      if (common_height(room_, blocker.z0_m, blocker.z1_m, config_) <= config_.z_overlap_m) continue;
+      if (const auto covered = inside(way, blocker.hull, 0.0)) free_m = std::min(free_m, covered->from);
+    }
+    return free_m;
   }
 
   void emit(const Edge& edge, const Stretch& stretch, int room, std::vector<VirtualEdge>& edges) const {
@@ -239,6 +244,7 @@ class EdgeFinder {
 
   const Building& building_;
   const std::vector<Blocker>& blockers_;
+  const BoxIndex& room_boxes_;
   int index_;
   const Room& room_;
   std::vector<int> near_blockers_, near_rooms_;

@@ -55,7 +55,8 @@ inline constexpr std::array<WarningRow, 67> warning_rows = {{
     {"no_axis",
      "a wall has no reference line; its body's longer extent on the plan replaces it, or the wall is left out"},
     {"no_body",
-     "the element has no body that can be read; it is left out unless it has an outline, and an opening cuts nothing"},
+     "the element has no body that can be read; it is left out, unless its outline is or names a room, and an opening "
+     "cuts nothing"},
     {"no_flights", "a stair has no steps in its body; it is a solid and cannot be climbed"},
     {"no_global_id", "an element has no GlobalId, or that of another; its number names it"},
     {"no_floor",

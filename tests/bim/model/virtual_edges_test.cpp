@@ -80,6 +80,44 @@ TEST(VirtualEdges, CurtainPanelsAndLooseLayersCloseAnEdge) {
   }
 }
 
+Obstacle plate(double x0, double x1) {
+  Obstacle plate;
+  plate.kind = "plate";
+  for (const double x : {x0, x1})
+    for (const double y : {0.0, 5.0})
+      for (const double z : {0.0, 3.0}) plate.body.vertices.emplace_back(x, y, z);
+  return plate;
+}
+
+/// What lies nearer than the first point that is looked at, or between two of them, stands in the way as well.
+TEST(VirtualEdges, NoRoomLiesBeyondAThinPane) {
+  struct Case {
+    double left_x, right_x, pane_x0, pane_x1;
+  };
+  for (const Case& c : {Case{3.8, 4.2, 3.99, 4.01}, Case{3.0, 3.8, 3.5 + 0.01, 3.5 + 0.03}}) {
+    Building building = open_plan("");
+    building.rooms[0].polygon = {{0.1, 0.1}, {c.left_x, 0.1}, {c.left_x, 4.9}, {0.1, 4.9}};
+    building.rooms[1].polygon = {{c.right_x, 0.1}, {7.9, 0.1}, {7.9, 4.9}, {c.right_x, 4.9}};
+    find_virtual_edges(building);
+    const std::vector<Adjacent> open = adjacency(building);
+    ASSERT_EQ(open.size(), 1u) << c.left_x;
+    EXPECT_EQ(open.front().by, Passage::open_edge);
+    building.obstacles = {plate(c.pane_x0, c.pane_x1)};
+    find_virtual_edges(building);
+    EXPECT_TRUE(adjacency(building).empty()) << c.left_x;
+  }
+}
+
+TEST(VirtualEdges, APostWithinTheRoomBeyondHidesItNot) {
+  Building building = open_plan("");
+  building.rooms[0].polygon = {{0.1, 0.1}, {3.9, 0.1}, {3.9, 4.9}, {0.1, 4.9}};
+  building.columns.push_back({"c", 0, {{4.1, 2.2}, {4.5, 2.2}, {4.5, 2.8}, {4.1, 2.8}}, 0.0, 3.0, "", {}, 0});
+  find_virtual_edges(building);
+  const std::vector<VirtualEdge>& edges = building.rooms[0].virtual_edges;
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_EQ(edges.front().room, 1);
+}
+
 TEST(Adjacency, NamesDoorsWindowsAndVoids) {
   const Building building =
       open_plan("  - {id: m, storey: g, a: [4, 0], b: [4, 5], thickness_m: 0.1}\n",
@@ -93,6 +131,23 @@ TEST(Adjacency, NamesDoorsWindowsAndVoids) {
   EXPECT_EQ(pairs[1].by, Passage::door);
   EXPECT_EQ(pairs[1].element, "d");
   EXPECT_EQ(pairs[2].by, Passage::opening_void);
+}
+
+/// Of walls before each other, in a building without rooms.
+TEST(Adjacency, AHoleThroughTwoWallsIsOneWithoutRooms) {
+  Building building;
+  for (const double y : {0.0, 0.3, 2.0}) {
+    Wall wall;
+    wall.a = {0, y};
+    wall.b = {8, y};
+    Opening hole;
+    hole.kind = OpeningKind::opening_void;
+    hole.s_m = 3.0;
+    hole.wall = static_cast<int>(building.walls.size());
+    building.walls.push_back(wall);
+    building.openings.push_back(hole);
+  }
+  EXPECT_EQ(continued_openings(building), (std::vector<bool>{false, true, false}));
 }
 
 /// A flight from one room up into another, on the storey above.

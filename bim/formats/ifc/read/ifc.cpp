@@ -150,6 +150,24 @@ void warn_of_missing_floors(Building& building) {
   }
 }
 
+/// What is said of the whole file: its size, where it lies, and the schema that it is read as.
+void warn_of_the_file(const StepModel& model, const std::string& read_as, Building& building) {
+  if (const std::string odd = odd_size(building); !odd.empty())
+    building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
+  if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
+  if (read_as != building.schema)
+    building.warnings.push_back({"", "other_schema", building.schema + " read as " + read_as});
+}
+
+void find_relations(const std::vector<FreeDoor>& free_doors, Building& building) {
+  find_room_walls(building);
+  find_opening_rooms(building);
+  warn_of_unresolved_doors(building);
+  find_virtual_edges(building);
+  add_door_edges(building, free_doors);
+  find_stair_rooms(building);
+}
+
 }  // namespace
 
 Building read_ifc_text(std::string_view text, const std::string& file, const IfcConfig& config) {
@@ -181,18 +199,9 @@ Building read_ifc_text(std::string_view text, const std::string& file, const Ifc
   building.unit = unit_name(model.unit_m);
   check_substance(building, model, file);
   warn_of_missing_walls(model, building);
-  if (const std::string odd = odd_size(building); !odd.empty())
-    building.warnings.push_back({"", "odd_size", odd + " The file says " + building.unit});
   building.moved_by = model.move;
-  if (model.move) building.warnings.push_back({"", "recentred", moved_text(*model.move)});
-  const std::string read_as = schema_for_reader(checked.schema);
-  if (read_as != said) building.warnings.push_back({"", "other_schema", said + " read as " + read_as});
-  find_room_walls(building);
-  find_opening_rooms(building);
-  warn_of_unresolved_doors(building);
-  find_virtual_edges(building);
-  add_door_edges(building, interpreter.free_doors());
-  find_stair_rooms(building);
+  warn_of_the_file(model, schema_for_reader(checked.schema), building);
+  find_relations(interpreter.free_doors(), building);
   warn_of_missing_floors(building);
   return building;
 }

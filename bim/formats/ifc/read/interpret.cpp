@@ -59,6 +59,39 @@ std::vector<bool> rooms_around_others(const std::vector<Room>& rooms) {
   return around;
 }
 
+/// Whether the middle of a room lies in one of others that the file gives.
+bool is_given(const Room& room, const std::vector<Room>& given, const BoxIndex& given_boxes) {
+  const Eigen::Vector2d inner = interior_point(room.polygon);
+  const std::vector<int> near = given_boxes.near({inner}, near_m);
+  return std::any_of(near.begin(), near.end(), [&](int k) {
+    const Room& other = given[static_cast<std::size_t>(k)];
+    return other.z0_m < room.z1_m && other.z1_m > room.z0_m && other.contains(inner);
+  });
+}
+
+/// Whether a storey that is no foundation or roof has slabs, and walls or panels of a curtain wall.
+bool is_built(const Building& building, int storey) {
+  const auto stands_here = [&](const auto& element) { return element.storey == storey; };
+  const auto is_front = [&](const Obstacle& obstacle) {
+    return stands_here(obstacle) && obstacle.kind == "curtain_panel";
+  };
+  return building.storeys[static_cast<std::size_t>(storey)].kind == StoreyKind::habitable &&
+         (std::any_of(building.walls.begin(), building.walls.end(), stands_here) ||
+          std::any_of(building.obstacles.begin(), building.obstacles.end(), is_front)) &&
+         std::any_of(building.slabs.begin(), building.slabs.end(), stands_here);
+}
+
+void warn_of_enclosed(const std::vector<Room>& rooms, const std::string& why, Building& building) {
+  const std::vector<bool> around = rooms_around_others(rooms);
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    building.warnings.push_back({rooms[k].id, "inferred_room", why + "; walls enclose this"});
+    if (around[k])
+      building.warnings.push_back(
+          {rooms[k].id, "room_hole",
+           "other rooms stand free within it, and its outline holds them too; its area is too large"});
+  }
+}
+
 /// Upright layers of equal height as one body; where their faces lie on each other, joined ones would not close.
 /// Nullopt for other solids.
 std::optional<Solid> one_of_layers(const std::vector<Solid>& solids, double grid_m) {
@@ -224,9 +257,20 @@ void Interpreter::sort_all() {
   });
 }
 
-void Interpreter::add_missing_rooms() {
+void Interpreter::name_by_outlines(const std::vector<NamedPlace>& places, std::vector<Room>& rooms) {
+  constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
+  for (Room& room : rooms) {
+    const auto place = std::find_if(places.begin(), places.end(), [&](const NamedPlace& p) {
+      return !p.name.empty() && std::abs(room.z0_m - p.z_m) < over_floor_m && room.contains(p.inner);
+    });
+    if (place == places.end()) continue;
+    room.name = place->name;
+    placed_.insert(place->space->step_id);
+  }
+}
+
+void Interpreter::add_missing_rooms(const std::vector<NamedPlace>& places) {
   const std::vector<Room> given = building_.rooms;
-  const std::vector<NamedPlace> places = places_of_outlines();
   const bool any_space = std::any_of(model_.products.begin(), model_.products.end(), [](const StepProduct& product) {
     return product.kind == StepClass::space && product.space_use == SpaceUse::room;
   });
@@ -245,43 +289,12 @@ void Interpreter::add_missing_rooms() {
     if (!several && !floors) floors = floor_pieces(building_);
     std::vector<Room> rooms =
         several ? infer_rooms(only_building_of(storey), storey) : infer_rooms(building_, storey, *floors);
-    std::erase_if(rooms, [&](const Room& room) {
-      if (given.empty()) return false;
-      const Eigen::Vector2d inner = interior_point(room.polygon);
-      const std::vector<int> near = given_boxes.near({inner}, near_m);
-      return std::any_of(near.begin(), near.end(), [&](int k) {
-        const Room& other = given[static_cast<std::size_t>(k)];
-        return other.z0_m < room.z1_m && other.z1_m > room.z0_m && other.contains(inner);
-      });
-    });
-    for (Room& room : rooms) {
-      constexpr double over_floor_m = 1.0;  // of an outline, up or down: half a storey and less
-      const auto place = std::find_if(places.begin(), places.end(), [&](const NamedPlace& p) {
-        return std::abs(room.z0_m - p.z_m) < over_floor_m && room.contains(p.inner);
-      });
-      if (place != places.end()) room.name = place->name;
-    }
-    const auto stands_here = [&](const auto& element) { return element.storey == storey; };
-    const auto is_front = [&](const Obstacle& obstacle) {
-      return stands_here(obstacle) && obstacle.kind == "curtain_panel";
-    };
-    const bool built = building_.storeys[i].kind == StoreyKind::habitable &&
-                       (std::any_of(building_.walls.begin(), building_.walls.end(), stands_here) ||
-                        std::any_of(building_.obstacles.begin(), building_.obstacles.end(), is_front)) &&
-                       std::any_of(building_.slabs.begin(), building_.slabs.end(), stands_here);
-    if (rooms.empty() && built && given.empty())
+    std::erase_if(rooms, [&](const Room& room) { return is_given(room, given, given_boxes); });
+    name_by_outlines(places, rooms);
+    if (rooms.empty() && given.empty() && is_built(building_, storey))
       building_.warnings.push_back({building_.storeys[i].id, "no_rooms",
                                     none + ", and walls enclose no room on this storey; no route of rooms goes there"});
-    const std::vector<bool> around = rooms_around_others(rooms);
-    for (std::size_t k = 0; k < rooms.size(); ++k) {
-      const std::string& id = rooms[k].id;
-      building_.warnings.push_back(
-          {id, "inferred_room", (given.empty() ? none : "the storey has no spaces") + "; walls enclose this"});
-      if (around[k])
-        building_.warnings.push_back(
-            {id, "room_hole",
-             "other rooms stand free within it, and its outline holds them too; its area is too large"});
-    }
+    warn_of_enclosed(rooms, given.empty() ? none : "the storey has no spaces", building_);
     building_.rooms.insert(building_.rooms.end(), rooms.begin(), rooms.end());
   }
 }
@@ -313,8 +326,10 @@ Building Interpreter::finish() {
              return storey.id == warning.element && storey.kind == StoreyKind::roof;
            });
   });
-  add_missing_rooms();
-  add_rooms_of_outlines();
+  std::vector<NamedPlace> places = places_of_outlines();
+  add_missing_rooms(places);
+  add_rooms_of_outlines(std::move(places));
+  warn_of_outlines();
   add_materials();
   warn_of_blocked_doors(building_);
   for (const auto& [host, cutters] : cutters_) {

@@ -8,6 +8,7 @@
 
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/formats/ifc/step/step_model.h"
+#include "bim/model/boxes.h"
 #include "bim/model/door_edges.h"
 
 namespace plumbline::bim {
@@ -108,16 +109,21 @@ class Interpreter {
   /// The building as if that of a storey were the only one of the file.
   [[nodiscard]] Building only_building_of(int storey) const;
   void set_heights();
-  void add_missing_rooms();
+  [[nodiscard]] std::optional<Room> room_of(const StepProduct& space);
   struct NamedPlace {
     Eigen::Vector2d inner;
     double z_m = 0.0;
-    std::string name;
+    std::string name;  ///< may be empty
     Polygon2 outline;
     const StepProduct* space = nullptr;
   };
+  void name_by_outlines(const std::vector<NamedPlace>& places, std::vector<Room>& rooms);
+  void add_missing_rooms(const std::vector<NamedPlace>& places);
   [[nodiscard]] std::vector<NamedPlace> places_of_outlines() const;
-  void add_rooms_of_outlines();
+  [[nodiscard]] std::optional<PolygonWithHoles2> free_piece(const NamedPlace& place, const BoxIndex& room_boxes,
+                                                            const BoxIndex& wall_boxes) const;
+  void add_rooms_of_outlines(std::vector<NamedPlace> places);
+  void warn_of_outlines();
   void add_materials();
   void sort_all();
   void warn(const StepProduct& product, WarningKind kind, const std::string& text);
@@ -135,7 +141,8 @@ class Interpreter {
   std::map<std::int64_t, std::vector<const StepProduct*>> cutters_;  ///< openings by STEP number of what they cut
   std::set<std::int64_t> cutters_used_;                              ///< STEP numbers of what was cut
   std::vector<FreeDoor> free_doors_;
-  std::set<std::int64_t> taken_;  ///< STEP numbers of parts that went into their whole
+  std::set<std::int64_t> placed_;  ///< STEP numbers of spaces without a body whose outlines are or name rooms
+  std::set<std::int64_t> taken_;   ///< STEP numbers of parts that went into their whole
 };
 
 /// Lowest and highest corner of a solid that has vertices.

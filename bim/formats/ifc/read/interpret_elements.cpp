@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bim/formats/ifc/read/interpret.h"
 #include "bim/formats/ifc/read/material_names.h"
@@ -81,9 +82,22 @@ bool second_is_the_room(const Room& a, const Region2& outline_a, const Room& b, 
   return (more > 0.0) == larger_is_net;
 }
 
+/// Leaves out those that cover the others, and adds their names to a list.
+void leave_out_covering_rooms(std::vector<Room>& rooms, std::vector<std::string>& left_out) {
+  std::vector<bool> whole;
+  for (const Room& room : rooms) whole.push_back(covers_the_others(room, rooms));
+  for (std::size_t i = rooms.size(); i-- > 0;) {
+    if (!whole[i]) continue;
+    left_out.push_back(rooms[i].name + " (covers the others)");
+    rooms.erase(rooms.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 /// Leaves one room a place.
-void leave_out_double_rooms(Building& building, const std::vector<Region2>& outlines) {
+void leave_out_double_rooms(Building& building) {
   std::vector<Room>& rooms = building.rooms;
+  std::vector<Region2> outlines;
+  for (const Room& room : rooms) outlines.push_back({room.outline()});
   std::vector<bool> left_out(rooms.size(), false);
   const auto named = [](const Room& room) { return "'" + room.name + "' (" + room.id + ")"; };
   for (std::size_t i = 0; i < rooms.size(); ++i) {
@@ -111,48 +125,41 @@ Element element_of(const StepProduct& product) {
 
 }  // namespace
 
+/// Nullopt, with a warning, where its body has no area on the plan or cannot be read.
+std::optional<Room> Interpreter::room_of(const StepProduct& space) {
+  const Solid body = body_of(space);
+  if (body.triangles.empty()) return std::nullopt;
+  const std::vector<PolygonWithHoles2> outline = footprint(body);
+  if (outline.empty()) {
+    warn(space, "no_body", "has no area on the plan, and is left out");
+    return std::nullopt;
+  }
+  if (outline.size() > 1) warn(space, "room_pieces", "its outline has several pieces; the largest is the room");
+  const PolygonWithHoles2& piece = largest(outline);
+  Room room = element_of<Room>(space);
+  room.name = space.name;
+  room.polygon = piece.outer;
+  room.holes = piece.holes;
+  const Extent box = extent(body);
+  room.z0_m = snapped(box.low.z());
+  room.z1_m = snapped(box.high.z());
+  room.storey = storey_index(space, room.z0_m);
+  return room;
+}
+
 void Interpreter::add_rooms() {
   std::vector<std::string> left_out;
-  std::vector<Region2> outlines;
   for (const StepProduct& product : model_.products) {
     if (product.kind != StepClass::space) continue;
     if (product.space_use != SpaceUse::room) {
       left_out.push_back(product.name + (product.space_use == SpaceUse::gross ? " (gross area)" : " (outside)"));
       continue;
     }
-    if (product.body.empty() && !product.outline.empty()) {
-      warn(product, "no_body", "has no body that can be read; its outline on the plan says where it is");
-      continue;
-    }
-    const Solid body = body_of(product);
-    if (body.triangles.empty()) continue;
-    const std::vector<PolygonWithHoles2> outline = footprint(body);
-    if (outline.empty()) {
-      warn(product, "no_body", "has no area on the plan, and is left out");
-      continue;
-    }
-    if (outline.size() > 1) warn(product, "room_pieces", "its outline has several pieces; the largest is the room");
-    const PolygonWithHoles2& piece = largest(outline);
-    Room room = element_of<Room>(product);
-    room.name = product.name;
-    room.polygon = piece.outer;
-    room.holes = piece.holes;
-    const Extent box = extent(body);
-    room.z0_m = snapped(box.low.z());
-    room.z1_m = snapped(box.high.z());
-    room.storey = storey_index(product, room.z0_m);
-    building_.rooms.push_back(std::move(room));
-    outlines.push_back({piece});
+    if (product.body.empty() && !product.outline.empty()) continue;  // comes when all rooms with a body are known
+    if (std::optional<Room> room = room_of(product)) building_.rooms.push_back(std::move(*room));
   }
-  std::vector<bool> whole;
-  for (const Room& room : building_.rooms) whole.push_back(covers_the_others(room, building_.rooms));
-  for (std::size_t i = building_.rooms.size(); i-- > 0;) {
-    if (!whole[i]) continue;
-    left_out.push_back(building_.rooms[i].name + " (covers the others)");
-    building_.rooms.erase(building_.rooms.begin() + static_cast<std::ptrdiff_t>(i));
-    outlines.erase(outlines.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  leave_out_double_rooms(building_, outlines);
+  leave_out_covering_rooms(building_.rooms, left_out);
+  leave_out_double_rooms(building_);
   std::string list;
   for (const std::string& name : left_out) list += (list.empty() ? "" : ", ") + name;
   if (!list.empty()) building_.warnings.push_back({"", "not_a_room", "spaces that are no rooms are left out: " + list});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "bim/geometry/polygon_boolean.h"
@@ -161,6 +162,88 @@ TEST(Spaces, WithoutABodyAreRoomsByTheirOutlinesBesideOthersWithOne) {
     EXPECT_NEAR(office.z1_m, 3.0, 1e-6);
     EXPECT_EQ(count(building, "inferred_room"), 1);
   }
+}
+
+/// A hall of 7.8 by 5.8 m without walls in it.
+void one_hall(Sketch& sketch) {
+  sketch.storey(0);
+  sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+  for (const double y : {0.0, 6.0}) sketch.wall(0, y, 8, 0.2, 3);
+  for (const double x : {0.0, 8.0}) sketch.wall(x, 0, 6, 0.2, 3, true);
+}
+
+const Room& room_named(const Building& building, const std::string& name) {
+  const auto found =
+      std::find_if(building.rooms.begin(), building.rooms.end(), [&](const Room& room) { return room.name == name; });
+  if (found == building.rooms.end()) throw std::runtime_error("no room " + name);
+  return *found;
+}
+
+TEST(Spaces, WithoutABodyAreRoomsInTheHoleOfAnother) {
+  Sketch sketch;
+  one_hall(sketch);
+  sketch.bare_space("ring", "Body",
+                    sketch.difference(sketch.box(0.1, 0.1, 0, 7.9, 5.9, 2.8), sketch.box(3, 2, -1, 5, 4, 4)));
+  sketch.bare_space("core", "FootPrint", sketch.polyline({{2.8, 1.8}, {5, 1.8}, {5, 4}, {2.8, 4}}));
+  const Building building = read(sketch);
+  ASSERT_EQ(building.rooms.size(), 2u);
+  EXPECT_NEAR(room_named(building, "core").area_m2(), 4.0, 1e-6);
+  EXPECT_NEAR(room_named(building, "ring").area_m2(), 7.8 * 5.8 - 4.0, 1e-6);
+}
+
+TEST(Spaces, WithoutABodyGoRoundTheRoomsWithin) {
+  for (const double x : {1.0, 3.0})  // beside the middle of the hall and in it
+    for (const bool walls : {false, true}) {
+      SCOPED_TRACE(std::to_string(x) + (walls ? ", walls" : ""));
+      Sketch sketch;
+      one_hall(sketch);
+      sketch.bare_space("hall", "FootPrint", sketch.polyline({{0, 0}, {8, 0}, {8, 6}, {0, 6}}));
+      sketch.bare_space("office", "Body", sketch.box(x, 2, 0, x + 2, 4, 2.8));
+      if (walls) {
+        for (const double y : {1.95, 4.05}) sketch.wall(x - 0.1, y, 2.2, 0.1, 3);
+        for (const double wall_x : {x - 0.05, x + 2.05}) sketch.wall(wall_x, 2, 2, 0.1, 3, true);
+      }
+      const Building building = read(sketch);
+      ASSERT_EQ(building.rooms.size(), 2u);
+      const Room& hall = room_named(building, "hall");
+      EXPECT_FALSE(hall.contains({x + 1, 3}));
+      EXPECT_NEAR(hall.area_m2(), 7.8 * 5.8 - (walls ? 2.2 * 2.2 : 4.0), 1e-6);
+    }
+}
+
+TEST(Spaces, WithoutABodyThatCoverOthersAreNoRooms) {
+  for (const bool bodies : {true, false}) {
+    Sketch sketch;
+    two_rooms(sketch);
+    const double top_m = bodies ? 4.9 : 4.7;  // what is left above the kitchen is no room
+    sketch.bare_space("flat", "FootPrint", sketch.polyline({{0, 0}, {8, 0}, {8, 6}, {0, 6}}));
+    sketch.bare_space("office", "Body", sketch.box(4.15, 0.1, 0, 7.9, 5.9, 2.8));
+    if (bodies)
+      sketch.bare_space("kitchen", "Body", sketch.box(0.1, 0.1, 0, 3.85, top_m, 2.8));
+    else
+      sketch.bare_space("kitchen", "FootPrint", sketch.polyline({{0, 0}, {3.9, 0}, {3.9, top_m}, {0, top_m}}));
+    const Building building = read(sketch);
+    ASSERT_EQ(building.rooms.size(), 2u);
+    EXPECT_EQ(room_named(building, "kitchen").polygon.size(), 4u);
+    EXPECT_EQ(room_named(building, "office").polygon.size(), 4u);
+  }
+}
+
+TEST(Spaces, WithoutABodyAreSaidToBeLeftOutWhereTheyAre) {
+  Sketch sketch;
+  two_rooms(sketch);
+  sketch.bare_space("", "FootPrint", sketch.polyline({{4, 0}, {8, 0}, {8, 6}, {4, 6}}));
+  sketch.bare_space("bow", "FootPrint", sketch.polyline({{4.3, 0.3}, {7.7, 5.7}, {7.7, 0.3}, {4.3, 5.7}}));
+  sketch.bare_space("twin", "FootPrint", sketch.polyline({{0.2, 0.2}, {3.8, 0.2}, {3.8, 5.8}, {0.2, 5.8}}));
+  sketch.bare_space("kitchen", "Body", sketch.box(0.1, 0.1, 0, 3.85, 5.9, 2.8));
+  const Building building = read(sketch);
+  EXPECT_EQ(building.rooms.size(), 2u) << "one needs no name";
+  EXPECT_EQ(count(building, "inferred_room"), 1);
+  EXPECT_EQ(count(building, "no_body"), 3);
+  const auto left_out = [](const Warning& w) {
+    return w.kind == "no_body" && w.text.find("left out") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(building.warnings.begin(), building.warnings.end(), left_out), 2);
 }
 
 TEST(SheetWalls, AreCutByOpeningsThatCrossThem) {
