@@ -20,8 +20,8 @@ struct SlipEpisode {
   double to_s = 0.0;
 };
 
-/// The last episode that begins at or before a time and ends at most a second before it; nothing of a robot that is
-/// kidnapped, whose slips begin anew.
+/// The last episode that begins at or before a time and ends at most three seconds before it; nothing of a robot that
+/// is kidnapped, whose slips begin anew.
 [[nodiscard]] std::optional<SlipEpisode> slip_before(const Scenario& scenario, double t_s);
 
 }  // namespace plumbline::scenarios

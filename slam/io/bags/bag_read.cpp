@@ -9,7 +9,7 @@
 #include "slam/io/bags/bag.h"
 #include "slam/io/bags/bag_source.h"
 #include "slam/io/bags/bag_topics.h"
-#include "slam/io/bags/cloud_times.h"
+#include "slam/io/bags/first_clouds.h"
 #include "slam/io/bags/frame_tree.h"
 #include "slam/io/bags/numbered_messages.h"
 #include "slam/io/bags/odometry_motion.h"

@@ -59,8 +59,8 @@ TEST(InjectedFaults, TheSlipBeforeAMomentIsFound) {
   EXPECT_GT(slip.from_s, t_s - 0.1 - 1e-9);  // in the middle third of the first 10 s
   EXPECT_GE(slip.from_s, 10.0 / 3.0);
   EXPECT_LE(slip.to_s, 20.0 / 3.0 + 0.2);
-  EXPECT_NEAR(slip_before(scenario, slip.to_s + 0.9).value().from_s, slip.from_s, 1e-9);
-  EXPECT_FALSE(slip_before(scenario, slip.to_s + 1.1));
+  EXPECT_NEAR(slip_before(scenario, slip.to_s + 2.9).value().from_s, slip.from_s, 1e-9);
+  EXPECT_FALSE(slip_before(scenario, slip.to_s + 3.1));
   EXPECT_FALSE(slip_before(with_faults(""), slip.from_s));
 }
 

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "slam/io/bags/cloud_times.h"
+#include "slam/io/bags/first_clouds.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
 #include "tests/slam/io/bags/altered_walk.h"
