@@ -55,7 +55,8 @@ struct PlanMethodConfig : PlanUpdateConfig {
       Field{.doc = "whether odometry's clock offset is estimated from the rotation between scans, and deskewed scans "
                    "are left as they are"});
     v("watch_odometry", watch_odometry,
-      Field{.doc = "whether scan matching replaces odometry that is silent, or stands still while scans show motion"});
+      Field{.doc = "whether scan matching replaces odometry that is silent, stands still while scans show motion, or "
+                   "jumps where they show none"});
   }
 };
 

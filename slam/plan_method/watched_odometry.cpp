@@ -13,6 +13,10 @@ constexpr std::size_t kept_scans = 8;
 /// Way and turn in one: a metre for a radian.
 double size_of(const Pose& step) { return step.t.norm() + log_so3(step.q).norm(); }
 
+bool is_measured(const Registration& found) {
+  return found.accepted && !found.lost && !found.displaced && found.unobserved_directions == 0;
+}
+
 }  // namespace
 
 WatchedOdometry::Tracked WatchedOdometry::track(const Scan& scan, const MotionBuffer& motion, Nanoseconds late) {
@@ -59,6 +63,15 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
   Tracked result;
   const Pose X_BR = motion.at(scan.stamp);
   result.X_OR = X_OB_ ? *X_OB_ * X_BR : X_BR;
+  if (!recent_.empty() && recent_.back().scan.stamp < scan.stamp) {
+    const Nanoseconds before = recent_.back().scan.stamp;
+    last_steps_.push_back({motion.at(before).inverse() * X_BR, scan.stamp - before});
+    if (slip_ || is_last_step_unexpected()) undo_slip(scan, result);
+    if (result.deskewed) X_OB_ = join_frames(result.X_OR, X_BR);
+    if (by_scans_) return result;
+    for (; !slip_ && last_steps_.size() > 1; last_steps_.pop_front())
+      steps_.add(last_steps_.front().step, last_steps_.front().dt);
+  }
   recent_.push_back({scan, result.X_OR, CoarseView(scan)});
   if (recent_.size() > kept_scans) recent_.pop_front();
   if (!contradicts_scans(scan, result.X_OR)) return result;
@@ -66,6 +79,44 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
   // The scan has been matched already: this one goes by odometry, the next one by scans.
   by_scans_ = std::exchange(beside_, std::nullopt);
   return result;
+}
+
+bool WatchedOdometry::is_last_step_unexpected() const {
+  constexpr double sigmas = 2.5, least_m = 0.03;  // on walks that slip by 0.2 to 0.4 m nothing else exceeds them
+  const std::optional<Pose> expected = steps_.over(last_steps_.back().dt);
+  return expected && (last_steps_.back().step.t - expected->t).norm() > sigmas * steps_.sigma_m() + least_m;
+}
+
+void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
+  constexpr double least_m = 0.05;      // more than registration errs by within the scans that are kept
+  constexpr double undone = 0.5;        // as in SlipWatch
+  constexpr int enough = 5, most = 10;  // scans
+  DeskewedScan deskewed;
+  if (!slip_) {
+    slip_ = begin();
+    right_ = undone_ = 0;
+    for (const Seen& seen : recent_) (void)match(*slip_, seen.scan, seen.X_OR, deskewed);
+  }
+  const Registration found = match(*slip_, scan, by_odometry.X_OR, deskewed);
+  const Pose X_OR = slip_->X_OM * found.X_MR;
+  Eigen::Vector3d unexpected_R = Eigen::Vector3d::Zero();
+  for (const Step& last : last_steps_) unexpected_R += last.step.t - steps_.over(last.dt)->t;
+  const Eigen::Vector3d correction_R = (by_odometry.X_OR.inverse() * X_OR).t;
+  const bool slipped = is_measured(found) && correction_R.norm() > least_m &&
+                       (unexpected_R + correction_R).norm() < undone * unexpected_R.norm();
+  right_ = slipped ? 0 : right_ + 1;
+  if (slipped) {
+    by_odometry.X_OR = X_OR;
+    by_odometry.deskewed = std::move(deskewed);
+    last_steps_.clear();
+    ++undone_;
+  }
+  if (undone_ >= most) {
+    why_ = Why::wrong;
+    by_scans_ = std::exchange(slip_, std::nullopt);
+  } else if (!is_measured(found) || right_ >= enough) {
+    slip_.reset();
+  }
 }
 
 bool WatchedOdometry::is_suspect(const Pose& X_OR) {
@@ -99,10 +150,9 @@ bool WatchedOdometry::contradicts_scans(const Scan& scan, const Pose& X_OR) {
       (void)match(*beside_, recent_[i].scan, recent_[i].X_OR, deskewed);
   }
   const Registration found = match(*beside_, scan, X_OR, deskewed);
-  const bool measured = found.accepted && !found.lost && !found.displaced && found.unobserved_directions == 0;
   const double way = size_of(beside_->X_OR.inverse() * X_OR);
   const bool is_apart = size_of(X_OR.inverse() * beside_->X_OM * found.X_MR) > apart + share * way;
-  beside_apart_ = measured && is_apart ? beside_apart_ + 1 : 0;
+  beside_apart_ = is_measured(found) && is_apart ? beside_apart_ + 1 : 0;
   return beside_apart_ >= in_a_row;
 }
 
@@ -129,6 +179,9 @@ void WatchedOdometry::watch_return(const Scan& scan, const MotionBuffer& motion,
   if (agreeing_ < enough || (why_ == Why::wrong && agreed_m_ < enough_m)) return;
   X_OB_ = join_frames(X_OR, motion.at(scan.stamp));
   by_scans_.reset();
+  slip_.reset();
+  steps_.clear();
+  last_steps_.clear();
   recent_.clear();
   X_OR_standing_.reset();
   agreeing_ = 0;

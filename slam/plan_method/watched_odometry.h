@@ -5,14 +5,15 @@
 #include <optional>
 
 #include "slam/odometry/front_end.h"
+#include "slam/odometry/motion_prediction.h"
 #include "slam/plan_method/coarse_view.h"
 #include "slam/scan/motion.h"
 
 namespace plumbline::slam {
 
 /// R in O from scan to scan: by odometry, and by scan matching where odometry is silent, stands still while the robot
-/// does not, or goes on while the robot stands, as with wheels that spin. Whoever localizes by odometry alone follows
-/// it wherever it stops.
+/// does not, goes on while the robot stands, as with wheels that spin, or jumps, as where feet slip. Whoever localizes
+/// by odometry alone follows it wherever it stops.
 class WatchedOdometry {
  public:
   explicit WatchedOdometry(const Calibration& calibration) : calibration_(calibration) {}
@@ -40,6 +41,10 @@ class WatchedOdometry {
     Pose X_OR;
     CoarseView view;
   };
+  struct Step {
+    Pose step;
+    Nanoseconds dt = 0;
+  };
   enum class Why { silent, wrong };
 
   [[nodiscard]] Matching begin() const;
@@ -52,6 +57,11 @@ class WatchedOdometry {
   [[nodiscard]] bool contradicts_scans(const Scan& scan, const Pose& X_OR);
   /// Whether odometry stands, or goes while the view stays as it was: scan matching is worth its time.
   [[nodiscard]] bool is_suspect(const Pose& X_OR);
+  /// Whether odometry's step to this scan is not the one that the steps before let expect.
+  [[nodiscard]] bool is_last_step_unexpected() const;
+  /// Puts a scan's pose where scan matching finds it, if that shows that the robot did not go where odometry's last
+  /// steps were unexpected.
+  void undo_slip(const Scan& scan, Tracked& by_odometry);
   void watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent);
 
   Calibration calibration_;
@@ -61,6 +71,11 @@ class WatchedOdometry {
   int standing_ = 0;                   ///< scans
   std::optional<Matching> beside_;     ///< while odometry is suspect
   int beside_apart_ = 0;               ///< scans in a row that contradict odometry
+  MotionPrediction steps_;             ///< of odometry, without the last ones
+  std::deque<Step> last_steps_;        ///< one, or those since one was unexpected and slips were undone
+  std::optional<Matching> slip_;       ///< since one was
+  int undone_ = 0;                     ///< scans since then at which a slip was undone
+  int right_ = 0;                      ///< scans in a row at which none was
   std::optional<Matching> by_scans_;   ///< while it replaces odometry
   Why why_ = Why::silent;              ///< it does
   std::optional<Pose> X_OR_, X_BR_;    ///< at the last scan: the robot's, and odometry's own
