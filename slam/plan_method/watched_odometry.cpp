@@ -82,20 +82,28 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
 }
 
 bool WatchedOdometry::is_last_step_unexpected() const {
-  constexpr double sigmas = 2.5, least_m = 0.03;  // on walks that slip by 0.2 to 0.4 m nothing else exceeds them
-  const std::optional<Pose> expected = steps_.over(last_steps_.back().dt);
-  return expected && (last_steps_.back().step.t - expected->t).norm() > sigmas * steps_.sigma_m() + least_m;
+  // On walks that slip by 0.2 to 0.4 m, at 2 to 10 Hz, nothing but slips and sudden stops exceeds them.
+  constexpr double sigmas = 2.5, least_mps = 0.3;
+  const Step& last = last_steps_.back();
+  const std::optional<Pose> expected = steps_.over(last.dt);
+  return expected && (last.step.t - expected->t).norm() > sigmas * steps_.sigma_m() + least_mps * seconds(last.dt);
 }
 
 void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
-  constexpr double least_m = 0.05;      // more than registration errs by within the scans that are kept
-  constexpr double undone = 0.5;        // as in SlipWatch
-  constexpr int enough = 5, most = 10;  // scans
+  constexpr double least_m = 0.05;                  // more than registration errs by within the scans that are kept
+  constexpr double undone = 0.5;                    // as in SlipWatch
+  constexpr Nanoseconds enough = 300'000'000;       // longer than a slip pauses
+  constexpr int most = 10;                          // scans
+  constexpr std::size_t least_scans = 4;            // from which matching begins, ...
+  constexpr Nanoseconds most_time = 1'000'000'000;  // ... or those of this time
   DeskewedScan deskewed;
   if (!slip_) {
     slip_ = begin();
-    right_ = undone_ = 0;
-    for (const Seen& seen : recent_) (void)match(*slip_, seen.scan, seen.X_OR, deskewed);
+    undone_ = 0;
+    slipped_ = recent_.back().scan.stamp;
+    for (std::size_t i = 0; i < recent_.size(); ++i)
+      if (recent_.size() - i <= least_scans || scan.stamp - recent_[i].scan.stamp <= most_time)
+        (void)match(*slip_, recent_[i].scan, recent_[i].X_OR, deskewed);
   }
   const Registration found = match(*slip_, scan, by_odometry.X_OR, deskewed);
   const Pose X_OR = slip_->X_OM * found.X_MR;
@@ -104,17 +112,17 @@ void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
   const Eigen::Vector3d correction_R = (by_odometry.X_OR.inverse() * X_OR).t;
   const bool slipped = is_measured(found) && correction_R.norm() > least_m &&
                        (unexpected_R + correction_R).norm() < undone * unexpected_R.norm();
-  right_ = slipped ? 0 : right_ + 1;
   if (slipped) {
     by_odometry.X_OR = X_OR;
     by_odometry.deskewed = std::move(deskewed);
     last_steps_.clear();
+    slipped_ = scan.stamp;
     ++undone_;
   }
   if (undone_ >= most) {
     why_ = Why::wrong;
     by_scans_ = std::exchange(slip_, std::nullopt);
-  } else if (!is_measured(found) || right_ >= enough) {
+  } else if (!is_measured(found) || scan.stamp - slipped_ >= enough) {
     slip_.reset();
   }
 }

@@ -75,7 +75,7 @@ class WatchedOdometry {
   std::deque<Step> last_steps_;        ///< one, or those since one was unexpected and slips were undone
   std::optional<Matching> slip_;       ///< since one was
   int undone_ = 0;                     ///< scans since then at which a slip was undone
-  int right_ = 0;                      ///< scans in a row at which none was
+  Nanoseconds slipped_ = 0;            ///< stamp of the last of them, or of the scan before the first
   std::optional<Matching> by_scans_;   ///< while it replaces odometry
   Why why_ = Why::silent;              ///< it does
   std::optional<Pose> X_OR_, X_BR_;    ///< at the last scan: the robot's, and odometry's own
