@@ -148,9 +148,9 @@ constexpr std::array<FileRow, 12> estimate_files = {{
     {manifest_name, "a digest of every file as it was written; `score` compares them", false},
     {"estimate.yaml",
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
-     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean, under `unchecked` "
-     "files "
-     "of the recording that had been altered"},
+     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean, `plan_moved_by_m` what "
+     "was added to the coordinates of a plan in map coordinates, under `unchecked` files of the "
+     "recording that had been altered"},
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
      "reported LOST"},

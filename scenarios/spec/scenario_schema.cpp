@@ -14,7 +14,8 @@ keep. `plumbline run SCENARIO` runs it. `plumbline scenarios --schema` prints th
 itself.
 
 - `building` is a [plan](plan.md), an IFC file or any other building that `plumbline inspect` reads, relative to the
-  scenario. Methods get it as planned; the robot walks through it and the LiDAR sees it as built.
+  scenario; the examples here belong beside the folder `library`. Methods get it as planned; the robot walks through it
+  and the LiDAR sees it as built.
 - `doors` and `furniture` change the building for this run, both as planned and as built. `results.json` names a value
   other than the default. A room behind a closed door cannot be reached: the run is refused and the door named.
 - `furnish` puts generated furniture into every room, as planned and as built alike. `world: {furniture: ...}` says how
@@ -33,7 +34,7 @@ itself.
 - `ground` and `pushes` make walking harder; `results.json` names a value other than the default. Nobody pushes on stairs
   and their landings unless `on_stairs`. A fall ends the run with exit code 4: the scenario failed, not a method.
 - `lidar: {preset: harsh}` and `faults: {preset: harsh}` add calibration and environment errors: range errors, dust,
-  clocks, mount, IMU, slipping feet. Each size is a key. Methods are not told of them. `results.json` and
+  clocks, mount, IMU, slipping feet. Each size is a key. Methods do not know of them. `results.json` and
   the report name them.
 - `plumbline methods` lists the methods; a scenario that names none runs the default ones. A gate has either `max` or
   `min` and bounds one of the [metrics](metrics.md).
