@@ -14,6 +14,7 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/median.h"
+#include "scenarios/app/plan_frame_score.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
@@ -46,16 +47,30 @@ std::string span_of(const Poses& poses) {
   return slam::format_stamp(poses.front().stamp) + " to " + slam::format_stamp(poses.back().stamp) + " s";
 }
 
-/// FILE, or FILE,topic=TOPIC of a bag.
+/// FILE, or BAG,topic=TOPIC, and frame=W where its poses are in the plan's frame.
 struct ReferenceSource {
   std::string file, topic;
+  bool in_plan_frame = false;
 };
 
-ReferenceSource reference_source(const std::string& text) {
-  constexpr std::string_view key = ",topic=";
-  const std::size_t at = text.rfind(key);
-  if (at == std::string::npos) return {text, {}};
-  return {text.substr(0, at), text.substr(at + key.size())};
+ReferenceSource reference_source(std::string text) {
+  ReferenceSource source;
+  const auto take = [&](std::string_view key, std::string& value) {
+    const std::size_t at = text.rfind(key);
+    if (at == std::string::npos || text.find(',', at + 1) != std::string::npos) return false;
+    value = text.substr(at + key.size());
+    text.resize(at);
+    return true;
+  };
+  for (std::string frame; take(",topic=", source.topic) || take(",frame=", frame);) {
+    if (frame.empty()) continue;
+    if (frame != "W" && frame != "M")
+      throw InputError({"--reference", 0, 0}, "'frame=" + frame + "' must be W, the plan's frame, or M, any other");
+    source.in_plan_frame = frame == "W";
+    frame.clear();
+  }
+  source.file = std::move(text);
+  return source;
 }
 
 /// `estimate`: its stamps are those of a reference without times.
@@ -172,6 +187,8 @@ const std::vector<std::string>& gate_names() {
       all.push_back(key);
       all.push_back("final." + key);
     }
+    for (const score::MetricRow& row : score::metrics())
+      if (row.name.starts_with("localization.")) all.emplace_back(row.name);
     return all;
   }();
   return names;
@@ -205,8 +222,11 @@ struct Covered {
   [[nodiscard]] std::string too_little() const {
     constexpr double least = score::TrajectoryRules().min_coverage;
     if (static_cast<double>(poses) < least * static_cast<double>(scans)) return words_of_poses();
-    if (reference_share && *reference_share < least) return words_of_reference();
-    return {};
+    return too_little_reference();
+  }
+  [[nodiscard]] std::string too_little_reference() const {
+    constexpr double least = score::TrajectoryRules().min_coverage;
+    return reference_share && *reference_share < least ? words_of_reference() : "";
   }
   [[nodiscard]] std::string words_of_poses() const {
     return std::to_string(poses) + " of " + std::to_string(scans) + " scans have a pose";
@@ -235,6 +255,7 @@ Covered covered(const Poses& poses, int scans, const Poses& reference) {
 std::string but(const GateSpec& gate, const Covered& causal, const Covered& last) {
   for (const char* name : {"coverage", "lost_share", "degenerate_share", "poses", "final.poses"})
     if (gate.metric == name) return {};
+  if (gate.metric.starts_with("localization.")) return causal.too_little_reference();
   return (gate.metric.starts_with("final.") ? last : causal).too_little();
 }
 
@@ -285,6 +306,8 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
   const ReferenceSource source = reference_source(reference_text);
   const std::string& reference_file = source.file;
+  if (source.in_plan_frame && !method.localization)
+    throw InputError({"--reference", 0, 0}, "'frame=W' is of a localization in a plan; " + method.name + " is none");
   Poses reference = reference_file.empty() ? Poses() : read_reference(source, method.causal);
   check_order(method.causal, reference, source);
   Tree tree = Tree::map();
@@ -316,6 +339,12 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   std::optional<score::Silence> silence;
   if (method.scans > 0 && !positions_alone) silence = score::score_silence(reference, method.causal, method.lost);
   if (silence) tree.set("silence", to_json(*silence));
+  std::optional<score::MethodScore> in_plan_frame;
+  if (source.in_plan_frame) {
+    in_plan_frame = score_in_plan_frame(method, reference, positions_alone, reference_file);
+    const Tree scored = score::to_results(*in_plan_frame);
+    tree.set("verdict", in_plan_frame->verdict).set("localization", *scored.find("localization"));
+  }
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));
   std::string judged;
@@ -330,6 +359,7 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
   if (causal_covered.reference_share.value_or(1.0) < 1.0) text += "; " + causal_covered.words_of_reference();
   if (!axes.empty()) text += "\n" + axes;
+  if (in_plan_frame) text += "\n" + words_of(*in_plan_frame);
   if (silence && silence->off_at_s) text += "\n" + words_of(*silence);
   text += "\n          poses   path m straight   vert. m";
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";

@@ -207,9 +207,11 @@ Command add_score(CommandLine& program) {
           "estimate alone, a value of score.json")
       .takes("GATE");
   line.option("--drop", options->dropped, "removes the outside estimate of this name, which was given before");
-  line.option("--reference", options->reference,
-              "of an estimate: true poses (TUM, KITTI or EuRoC, or BAG,topic=TOPIC) of the same frame of the robot, in "
-              "any world frame, on the estimate's clock; both are aligned");
+  line.option(
+      "--reference", options->reference,
+      "FILE[,frame=W] or BAG,topic=TOPIC[,frame=W], of an estimate: true poses (TUM, KITTI or EuRoC) of the same "
+      "frame of the robot, on the estimate's clock, in any world frame; both are aligned. frame=W: in the "
+      "plan's frame; a localization is scored there, too, without alignment");
   line.flag("--unchecked", options->unchecked,
             "takes files that were altered since they were written; results.json names them");
   line.footer(
@@ -218,7 +220,9 @@ Command add_score(CommandLine& program) {
       "         plumbline score runs/quickstart-1 --estimate paper=estimates/paper\n"
       "         plumbline score runs/quickstart-1 --estimate mine=mine.tum --map mine=mine.ply --gate "
       "'map_rmse_m<=0.05'\n"
-      "         plumbline score estimates/street --reference street.tum --gate 'ate_aligned_rmse_m<=0.5'");
+      "         plumbline score estimates/street --reference street.tum --gate 'ate_aligned_rmse_m<=0.5'\n"
+      "         plumbline score estimates/office --reference total_station.tum,frame=W --gate "
+      "'localization.sure_and_wrong<=0'");
   return {line, [options] { return score_any(*options); }};
 }
 

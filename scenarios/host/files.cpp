@@ -153,7 +153,7 @@ constexpr std::array<FileRow, 12> estimate_files = {{
      "recording that had been altered"},
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
-     "reported LOST"},
+     "reported LOST; under `localization` and `verdict` what a reference in the plan's frame (`frame=W`) says"},
     {"<method>.tum", "the causal trajectory; X_MR of SLAM, X_WR of a localization", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
     {"<method>.map.ply", "the map: x, y, z as float32, m; in M of SLAM, in W of a localization", false},

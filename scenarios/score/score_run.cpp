@@ -17,20 +17,6 @@
 
 namespace plumbline::scenarios::score {
 
-namespace {
-
-/// What the methods of a run are scored against.
-struct Reference {
-  const bim::Plan& as_planned;
-  const bim::Plan& as_built;
-  const Truth& truth;
-  const std::vector<Eigen::Vector3d>& surface_W;
-  const SurfaceDistance& distance;
-  const bim::BuildingMesh& mesh;
-};
-
-/// Beliefs with the poses given for them. An outside trajectory in W claims to know where it is from its first pose to
-/// the end of the run, also where it has none.
 std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
   std::vector<Belief> beliefs;
   const auto pose_at = [&](slam::Nanoseconds stamp) -> std::optional<Pose> {
@@ -53,6 +39,18 @@ std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth) {
   }
   return beliefs;
 }
+
+namespace {
+
+/// What the methods of a run are scored against.
+struct Reference {
+  const bim::Plan& as_planned;
+  const bim::Plan& as_built;
+  const Truth& truth;
+  const std::vector<Eigen::Vector3d>& surface_W;
+  const SurfaceDistance& distance;
+  const bim::BuildingMesh& mesh;
+};
 
 /// Whether rooms are known of a storey that the robot was on; where none are, a room found is neither right nor wrong.
 bool rooms_are_known(const Reference& reference) {

@@ -23,6 +23,10 @@ struct RunScore {
   [[nodiscard]] bool passed() const;
 };
 
+/// What a localization reported, with the poses given for it. An outside trajectory in W claims to know where it is
+/// from its first pose to the end of the run, also where it has none.
+[[nodiscard]] std::vector<Belief> beliefs_of(const MethodRecord& method, const Truth& truth);
+
 /// Scores every method of a run directory, docs/reference/metrics.md. Outside estimates (those the scenario did not
 /// run) are held to the strictest bound that the scenario asks of any estimator on each metric that an estimate of
 /// their kind has.
