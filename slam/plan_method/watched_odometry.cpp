@@ -110,8 +110,9 @@ void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
   Eigen::Vector3d unexpected_R = Eigen::Vector3d::Zero();
   for (const Step& last : last_steps_) unexpected_R += last.step.t - steps_.over(last.dt)->t;
   const Eigen::Vector3d correction_R = (by_odometry.X_OR.inverse() * X_OR).t;
-  const bool slipped = is_measured(found) && correction_R.norm() > least_m &&
-                       (unexpected_R + correction_R).norm() < undone * unexpected_R.norm();
+  const bool slipped =
+      is_measured(found) && correction_R.norm() > least_m &&
+      (unexpected_R + correction_R).norm() < undone * std::max(unexpected_R.norm(), correction_R.norm());
   if (slipped) {
     by_odometry.X_OR = X_OR;
     by_odometry.deskewed = std::move(deskewed);
