@@ -2,6 +2,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <set>
 #include <sstream>
 
 #include "bim/config/tree.h"
@@ -58,6 +59,7 @@ class TreeBuilder : public YAML::EventHandler {
  private:
   struct Level {
     Tree tree;
+    std::set<std::string> keys;  ///< so far, of a map
     std::string key;
     bool has_key = false;
   };
@@ -68,7 +70,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void set_key(const YAML::Mark& mark, const std::string& key) {
-    if (stack_.back().tree.find(key) != nullptr)
+    if (!stack_.back().keys.insert(key).second)
       throw InputError(place(mark), "duplicate key '" + key + "'; each key may stand once");
     stack_.back().key = key;
     stack_.back().has_key = true;
@@ -78,7 +80,7 @@ class TreeBuilder : public YAML::EventHandler {
     const bool as_key = !stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key;
     if (as_key) throw InputError(place(mark), "a list or map cannot be a key");
     if (stack_.size() >= max_depth) throw InputError(place(mark), "nested deeper than 64 levels");
-    stack_.push_back({std::move(tree), {}, false});
+    stack_.push_back({std::move(tree), {}, {}, false});
   }
 
   void close() {
