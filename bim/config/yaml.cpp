@@ -2,6 +2,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -112,8 +113,10 @@ bool needs_quotes(const std::string& text) {
   if (text.empty() || text == "null" || text == "~") return true;
   const bool is_negative = text.size() > 1 && text[0] == '-' && text[1] >= '0' && text[1] <= '9';
   if (text.front() == '-' && !is_negative) return true;
-  if (text.front() == ' ' || text.back() == ' ' || text.front() == '?') return true;
-  return text.find_first_of(":#,[]{}&*!|>'\"%@`\n\t\\") != std::string::npos;
+  if (text.front() == ' ' || text.back() == ' ') return true;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7f; };
+  return text.find_first_of(":#,?[]{}&*!|>'\"%@`\\") != std::string::npos ||
+         std::any_of(text.begin(), text.end(), is_control);
 }
 
 std::string scalar_text(const Tree& tree) {

@@ -153,5 +153,23 @@ TEST(Json, KeepsKindsPlacesOfErrorsAndBounds) {
   EXPECT_EQ(input_error([&] { (void)read_json(nested(66), "f"); }), "f: nested deeper than 64 levels");
 }
 
+TEST(Yaml, EveryByteOfTextSurvivesWriting) {
+  for (int byte = 1; byte < 0x80; ++byte) {
+    const char c = static_cast<char>(byte);
+    for (const std::string& text :
+         {std::string(1, c), std::string("a") + c + "b", std::string("a") + c, c + std::string("b")}) {
+      Tree tree = Tree::map();
+      tree.set(text, Tree::list().push(text).push("x")).set("value of " + text, text);
+      const std::string written = write_yaml(tree);
+      for (const char w : written) EXPECT_TRUE(w == '\n' || static_cast<unsigned char>(w) >= 0x20U) << byte;
+      const Tree read = read_yaml(written, "f");
+      ASSERT_EQ(read.as_map().size(), 2U) << byte;
+      EXPECT_EQ(read.as_map()[0].first, text) << byte;
+      EXPECT_EQ(read.as_map()[0].second.as_list()[0].as_string(), text) << byte;
+      EXPECT_EQ(read.as_map()[1].second.as_string(), text) << byte;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline
