@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bim/config/tree.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/digest_log.h"
 #include "scenarios/run/estimate_file.h"
@@ -231,6 +232,18 @@ TEST(EstimateFile, RoundTrip) {
   EXPECT_EQ(again.estimate.segmented.at(0).point_mm, method.estimate.segmented[0].point_mm);
   EXPECT_EQ(again.estimate.segmented[0].plane, (std::vector<int>{-1, 2}));
   EXPECT_THROW(read_estimate("{}", "e.json", again), InputError);
+}
+
+TEST_F(Files, AManifestIsOfFilesAndNotOfBrokenLinks) {
+  write_file(path("a.csv"), "1");
+  fs::create_symlink("loop", path("loop"));
+  fs::create_symlink("nowhere", path("dangling"));
+  write_manifest(folder_.path());
+  EXPECT_TRUE(altered_files(folder_.path(), {}).empty());
+  const std::string text = read_text_file(path("manifest.csv"));
+  EXPECT_NE(text.find("a.csv,"), std::string::npos);
+  EXPECT_EQ(text.find("loop"), std::string::npos);
+  EXPECT_EQ(text.find("dangling"), std::string::npos);
 }
 
 TEST(EstimateFile, BeliefsRoundTrip) {
