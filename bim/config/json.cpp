@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bim/config/tree.h"
@@ -14,57 +15,88 @@ namespace plumbline {
 
 namespace {
 
-constexpr int max_depth = 64;
+constexpr std::size_t max_depth = 64;
 
-Tree convert(const nlohmann::ordered_json& json, const Mark& mark, int depth) {
-  if (depth > max_depth) throw InputError(mark, "nested deeper than 64 levels");
-  Tree tree;
-  switch (json.type()) {
-    case nlohmann::json::value_t::boolean:
-      tree.value = json.get<bool>();
-      break;
-    case nlohmann::json::value_t::number_unsigned:
-      if (json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-        throw InputError(mark, "the number " + std::to_string(json.get<std::uint64_t>()) +
-                                   " is too large; at most 9223372036854775807 would be right");
-      [[fallthrough]];
-    case nlohmann::json::value_t::number_integer:
-      tree.value = json.get<std::int64_t>();
-      break;
-    case nlohmann::json::value_t::number_float:
-      tree.value = json.get<double>();
-      break;
-    case nlohmann::json::value_t::string:
-      tree.value = json.get<std::string>();
-      break;
-    case nlohmann::json::value_t::array:
-      tree = Tree::list();
-      for (const auto& item : json) tree.push(convert(item, mark, depth + 1));
-      break;
-    case nlohmann::json::value_t::object:
-      tree = Tree::map();
-      for (const auto& [key, item] : json.items()) tree.set(key, convert(item, mark, depth + 1));
-      break;
-    default:
-      break;
+/// Builds the tree from the parser's events. The parser's own maps would seek each key among all before it, and of two
+/// equal ones keep one and say nothing.
+class TreeReader : public nlohmann::json::json_sax_t {
+ public:
+  TreeReader(std::string_view text, const std::string& file) : text_(text), mark_{file, 0, 0} {}
+
+  bool null() override { return add(Tree()); }
+  bool boolean(bool value) override { return add(Tree(value)); }
+  bool number_integer(std::int64_t value) override { return add(Tree(value)); }
+  bool number_unsigned(std::uint64_t value) override {
+    if (value > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+      throw InputError(
+          mark_, "the number " + std::to_string(value) + " is too large; at most 9223372036854775807 would be right");
+    return add(Tree(static_cast<std::int64_t>(value)));
   }
-  tree.mark = mark;
-  return tree;
-}
-
-/// Told what the parser comes to. Of two equal keys in a map it would keep one and say nothing.
-struct UniqueKeys {
-  Mark mark;
-  std::vector<std::set<std::string>> maps;  ///< keys of those that are open
-
-  bool operator()(int /*depth*/, nlohmann::ordered_json::parse_event_t event, const nlohmann::ordered_json& parsed) {
-    using Event = nlohmann::ordered_json::parse_event_t;
-    if (event == Event::object_start) maps.emplace_back();
-    if (event == Event::object_end) maps.pop_back();
-    if (event == Event::key && !maps.back().insert(parsed.get<std::string>()).second)
-      throw InputError(mark, "duplicate key '" + parsed.get<std::string>() + "'; each key may stand once");
+  bool number_float(double value, const std::string&) override { return add(Tree(value)); }
+  bool string(std::string& value) override { return add(Tree(std::move(value))); }
+  bool binary(nlohmann::json::binary_t&) override { return false; }  // of other formats than JSON
+  bool start_object(std::size_t) override { return open(Tree::map()); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(Tree::list()); }
+  bool end_array() override { return close(); }
+  bool key(std::string& value) override {
+    if (!stack_.back().keys.insert(value).second)
+      throw InputError(mark_, "duplicate key '" + value + "'; each key may stand once");
+    stack_.back().key = std::move(value);
     return true;
   }
+  bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& error) override {
+    if (dynamic_cast<const nlohmann::json::parse_error*>(&error) == nullptr)
+      throw InputError(mark_, std::string("no valid JSON: ") + error.what());
+    Mark mark{mark_.file, 1, 1};
+    for (std::size_t i = 0; i + 1 < byte && i < text_.size(); ++i) {
+      mark.col = text_[i] == '\n' ? 1 : mark.col + 1;
+      mark.line += text_[i] == '\n' ? 1 : 0;
+    }
+    throw InputError(mark, "no valid JSON");
+  }
+
+  Tree root;
+
+ private:
+  struct Level {
+    Tree tree;
+    std::set<std::string> keys;  ///< so far, of a map
+    std::string key;
+  };
+
+  void check_depth() const {
+    if (stack_.size() > max_depth) throw InputError(mark_, "nested deeper than 64 levels");
+  }
+
+  bool open(Tree tree) {
+    check_depth();
+    stack_.push_back({std::move(tree), {}, {}});
+    return true;
+  }
+
+  bool close() {
+    Tree done = std::move(stack_.back().tree);
+    stack_.pop_back();
+    return add(std::move(done));
+  }
+
+  bool add(Tree tree) {
+    check_depth();
+    tree.mark = mark_;
+    if (stack_.empty()) {
+      root = std::move(tree);
+    } else if (Level& level = stack_.back(); level.tree.is_list()) {
+      level.tree.push(std::move(tree));
+    } else {
+      std::get<Tree::Map>(level.tree.value).emplace_back(std::move(level.key), std::move(tree));
+    }
+    return true;
+  }
+
+  std::string_view text_;
+  Mark mark_;
+  std::vector<Level> stack_;
 };
 
 std::string quoted(const std::string& text) {
@@ -136,20 +168,13 @@ void write(const Tree& tree, int indent, int depth, std::string& out) {
 }  // namespace
 
 Tree read_json(std::string_view text, const std::string& file) {
+  TreeReader reader(text, file);
   try {
-    UniqueKeys unique{{file, 0, 0}, {}};
-    return convert(nlohmann::ordered_json::parse(text.begin(), text.end(), std::ref(unique)), {file, 0, 0}, 0);
-  } catch (const nlohmann::json::parse_error& error) {
-    int line = 1;
-    int col = 1;
-    for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) {
-      col = text[i] == '\n' ? 1 : col + 1;
-      line += text[i] == '\n' ? 1 : 0;
-    }
-    throw InputError({file, line, col}, "no valid JSON");
+    if (!nlohmann::json::sax_parse(text.begin(), text.end(), &reader)) throw InputError({file, 0, 0}, "no valid JSON");
   } catch (const nlohmann::json::exception& error) {
     throw InputError({file, 0, 0}, std::string("no valid JSON: ") + error.what());
   }
+  return std::move(reader.root);
 }
 
 std::string write_json(const Tree& tree, int indent) {

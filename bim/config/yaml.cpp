@@ -2,6 +2,8 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "bim/config/tree.h"
@@ -58,6 +60,7 @@ class TreeBuilder : public YAML::EventHandler {
  private:
   struct Level {
     Tree tree;
+    std::set<std::string> keys;  ///< so far, of a map
     std::string key;
     bool has_key = false;
   };
@@ -68,7 +71,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void set_key(const YAML::Mark& mark, const std::string& key) {
-    if (stack_.back().tree.find(key) != nullptr)
+    if (!stack_.back().keys.insert(key).second)
       throw InputError(place(mark), "duplicate key '" + key + "'; each key may stand once");
     stack_.back().key = key;
     stack_.back().has_key = true;
@@ -78,7 +81,7 @@ class TreeBuilder : public YAML::EventHandler {
     const bool as_key = !stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key;
     if (as_key) throw InputError(place(mark), "a list or map cannot be a key");
     if (stack_.size() >= max_depth) throw InputError(place(mark), "nested deeper than 64 levels");
-    stack_.push_back({std::move(tree), {}, false});
+    stack_.push_back({std::move(tree), {}, {}, false});
   }
 
   void close() {
@@ -110,8 +113,10 @@ bool needs_quotes(const std::string& text) {
   if (text.empty() || text == "null" || text == "~") return true;
   const bool is_negative = text.size() > 1 && text[0] == '-' && text[1] >= '0' && text[1] <= '9';
   if (text.front() == '-' && !is_negative) return true;
-  if (text.front() == ' ' || text.back() == ' ' || text.front() == '?') return true;
-  return text.find_first_of(":#,[]{}&*!|>'\"%@`\n\t\\") != std::string::npos;
+  if (text.front() == ' ' || text.back() == ' ') return true;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7f; };
+  return text.find_first_of(":#,?[]{}&*!|>'\"%@`\\") != std::string::npos ||
+         std::any_of(text.begin(), text.end(), is_control);
 }
 
 std::string scalar_text(const Tree& tree) {

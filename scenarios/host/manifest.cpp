@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "bim/config/input_file.h"
 #include "bim/config/printable.h"
@@ -41,10 +42,13 @@ bool is_listed(const std::string& name) {
 /// Names of all files, those in folders with the folder's name before them.
 std::vector<std::string> files_in(const std::string& directory) {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
-    const std::string name = entry.path().lexically_relative(directory).string();
-    if (entry.is_regular_file() && is_listed(name)) names.push_back(name);
+  std::error_code error, unknown;
+  fs::recursive_directory_iterator it(directory, error);
+  for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().lexically_relative(directory).string();
+    if (it->is_regular_file(unknown) && is_listed(name)) names.push_back(name);
   }
+  if (error) throw InputError({directory, 0, 0}, "cannot be listed: " + error.message());
   std::sort(names.begin(), names.end());
   return names;
 }

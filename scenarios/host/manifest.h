@@ -11,7 +11,7 @@ namespace plumbline::scenarios {
 /// can be named; last its own, of the lines before. timings.json, which differs between repetitions, is left out.
 inline constexpr std::string_view manifest_name = "manifest.csv";
 
-/// Writes it for what `directory` holds now. Throws EnvironmentError.
+/// Writes it for what `directory` holds now. Throws EnvironmentError, and InputError where that cannot be listed.
 void write_manifest(const std::string& directory);
 
 /// What a check leaves out.
@@ -21,7 +21,7 @@ struct ManifestCheck {
 };
 /// Files that are not as they were written, are missing, or are of a method and were not there, in the order of their
 /// names; the manifest itself where there is none or a line of it was changed or removed. Throws InputError on a
-/// manifest that is damaged.
+/// manifest that is damaged, and where the directory cannot be listed.
 [[nodiscard]] std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check);
 
 /// Throws InputError that names the altered files, unless `unchecked`: then says on stderr which they are.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "bim/config/number_list.h"
 #include "scenarios/metrics/state_names.h"
@@ -27,6 +28,15 @@ std::array<double, N> read_numbers(const Tree& tree) {
   std::array<double, N> values{};
   for (std::size_t i = 0; i < N; ++i) values[i] = list[i].as_double();
   return values;
+}
+
+int read_int(const Tree& tree, int least = std::numeric_limits<int>::min(),
+             int most = std::numeric_limits<int>::max()) {
+  const std::int64_t value = tree.as_int();
+  if (value < least || value > most)
+    throw InputError(tree.mark,
+                     "a whole number from " + std::to_string(least) + " to " + std::to_string(most) + " is expected");
+  return static_cast<int>(value);
 }
 
 Eigen::Vector2d read_2d(const Tree& tree) {
@@ -58,13 +68,13 @@ Tree write(const slam::PlaneNode& plane) {
 
 slam::PlaneNode read_plane(const Tree& tree) {
   slam::PlaneNode plane;
-  plane.id = static_cast<int>(child(tree, "id").as_int());
+  plane.id = read_int(child(tree, "id"));
   plane.plane_F = {read_3d(child(tree, "n")), child(tree, "d").as_double()};
   plane.p0 = read_2d(child(tree, "p0"));
   plane.p1 = read_2d(child(tree, "p1"));
   plane.z0 = child(tree, "z0").as_double();
   plane.z1 = child(tree, "z1").as_double();
-  plane.observations = static_cast<int>(child(tree, "observations").as_int());
+  plane.observations = read_int(child(tree, "observations"));
   return plane;
 }
 
@@ -80,11 +90,11 @@ Tree write(const slam::RoomNode& room) {
 
 slam::RoomNode read_room(const Tree& tree) {
   slam::RoomNode room;
-  room.id = static_cast<int>(child(tree, "id").as_int());
+  room.id = read_int(child(tree, "id"));
   room.kind = static_cast<slam::RoomKind>(index_of(child(tree, "kind"), room_names));
   room.center_F = read_2d(child(tree, "center"));
   for (const Tree& p : child(tree, "polygon").as_list()) room.polygon_F.push_back(read_2d(p));
-  for (const Tree& id : child(tree, "planes").as_list()) room.planes.push_back(static_cast<int>(id.as_int()));
+  for (const Tree& id : child(tree, "planes").as_list()) room.planes.push_back(read_int(id));
   return room;
 }
 
@@ -95,7 +105,7 @@ Tree write(const slam::FloorNode& floor) {
 }
 
 slam::FloorNode read_floor(const Tree& tree) {
-  return {static_cast<int>(child(tree, "id").as_int()),
+  return {read_int(child(tree, "id")),
           read_3d(child(tree, "center")),
           {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
 }
@@ -123,11 +133,8 @@ slam::SegmentedScan read_segmented(const Tree& tree) {
   const Tree& values = child(tree, "xyz_mm_plane");
   const Tree::List& list = values.as_list();
   if (list.size() % 4 != 0) throw InputError(values.mark, "four numbers a point are expected");
-  const auto at = [&](std::size_t k) {
-    const std::int64_t value = list[k].as_int();
-    if (std::abs(value) > 1'000'000) throw InputError(list[k].mark, "numbers of at most 1000000 are expected");
-    return static_cast<int>(value);
-  };
+  constexpr int most = 1'000'000;
+  const auto at = [&](std::size_t k) { return read_int(list[k], -most, most); };
   for (std::size_t i = 0; i < list.size(); i += 4) {
     scan.point_mm.emplace_back(at(i), at(i + 1), at(i + 2));
     scan.plane.push_back(at(i + 3));
@@ -161,7 +168,7 @@ Tree write(const slam::WallMatch& match) {
 
 slam::WallMatch read_match(const Tree& tree) {
   slam::WallMatch match{{}, read_3d(child(tree, "p0")), read_3d(child(tree, "p1"))};
-  for (const Tree& face : child(tree, "faces").as_list()) match.faces.push_back(static_cast<int>(face.as_int()));
+  for (const Tree& face : child(tree, "faces").as_list()) match.faces.push_back(read_int(face));
   return match;
 }
 
@@ -312,9 +319,9 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
   }
   if (const Tree* shift = tree.find("shift_ns")) method.shift = shift->as_int();
   if (const Tree* scans = tree.find("scans")) {
-    method.scans = static_cast<int>(scans->as_int());
-    method.lost_scans = static_cast<int>(child(tree, "lost_scans").as_int());
-    method.degenerate_scans = static_cast<int>(child(tree, "degenerate_scans").as_int());
+    method.scans = read_int(*scans, 0);
+    method.lost_scans = read_int(child(tree, "lost_scans"), 0);
+    method.degenerate_scans = read_int(child(tree, "degenerate_scans"), 0);
     method.lost = read_spans(child(tree, "lost_ns"));
   }
   for (const Tree& plane : child(tree, "planes").as_list()) method.estimate.planes.push_back(read_plane(plane));

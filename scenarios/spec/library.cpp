@@ -41,9 +41,11 @@ std::string library_folder() {
 
 std::vector<std::string> scenario_files(const std::string& folder) {
   std::vector<std::string> paths;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string path = entry.path().string();
-    if (entry.path().extension() != ".yaml" || path.ends_with(".plan.yaml") || entry.is_directory()) continue;
+  std::error_code error, unknown;
+  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+  for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
+    const std::string path = it->path().string();
+    if (it->path().extension() != ".yaml" || path.ends_with(".plan.yaml") || !it->is_regular_file(unknown)) continue;
     if (may_be_scenario(path)) paths.push_back(path);
   }
   std::sort(paths.begin(), paths.end());

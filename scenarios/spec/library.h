@@ -11,6 +11,7 @@ namespace plumbline::scenarios {
 [[nodiscard]] std::string library_folder();
 
 /// Files of scenarios in a folder and those in it, in order; also those of which nobody knows, as they are no YAML.
+/// What is no file, as a link to nothing, is left out, and so is a folder that cannot be opened.
 [[nodiscard]] std::vector<std::string> scenario_files(const std::string& folder);
 
 /// What INPUT of a command names: itself where it is there; else the scenario of the library that has this name, with

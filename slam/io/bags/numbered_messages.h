@@ -10,6 +10,7 @@
 #include "bim/errors.h"
 #include "slam/io/bags/ros_message.h"
 #include "slam/io/ros2/message_source.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam {
 
@@ -25,9 +26,12 @@ class NumberedMessages {
     source_->select(topics);
     numbers_.clear();
   }
+  /// Throws InputError where a message was recorded at no possible time.
   [[nodiscard]] bool next(RawMessage& message) {
     if (!source_->next(message)) return false;
     ++numbers_[message.topic];
+    if (message.time <= -furthest_stamp || message.time >= furthest_stamp)
+      throw InputError({}, place_of(message) + "a time of recording more than 126 years from 1970");
     return true;
   }
 

@@ -110,7 +110,7 @@ class Reader {
     if (cdr_ && !bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
     return {bytes.begin(), bytes.end()};
   }
-  /// ROS 2 counts from 1970 both ways.
+  /// ROS 2 counts from 1970 both ways. Seconds of 32 bits keep differences to other times within 64.
   Nanoseconds time() {
     const std::int64_t s = cdr_ ? std::int64_t{number<std::int32_t>()} : std::int64_t{number<std::uint32_t>()};
     return s * second_ns + number<std::uint32_t>();
@@ -297,7 +297,7 @@ FramedCloud read_livox(std::span<const std::uint8_t> bytes, Encoding encoding) {
   PointCloud& cloud = out.cloud;
   const Nanoseconds stamp = in.header(out.frame);
   cloud.stamp = static_cast<Nanoseconds>(in.number<std::uint64_t>());
-  if (cloud.stamp < 0) throw InputError({}, "a time base that is no time");
+  if (cloud.stamp < 0 || cloud.stamp >= furthest_stamp) throw InputError({}, "a time base that is no time");
   // A time base of 0, or of the LiDAR's own clock, is not that of the other topics.
   if (cloud.stamp == 0 || (stamp != 0 && std::abs(cloud.stamp - stamp) > second_ns)) cloud.stamp = stamp;
   const auto points = in.number<std::uint32_t>();

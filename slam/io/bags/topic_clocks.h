@@ -39,7 +39,7 @@ class TopicClocks {
                                   const std::string& other) const {
     constexpr double most_s = 5.0;  // of a scan, and of what may be computed before it is recorded
     if (scans_.empty() || others.empty()) return {};
-    const double ahead_s = seconds(middle(scans_) - middle(others));
+    const double ahead_s = seconds(middle(scans_)) - seconds(middle(others));
     if (std::abs(ahead_s) <= most_s) return {};
     char text[64];
     std::snprintf(text, sizeof text, " are %.1f s %s those on ", std::abs(ahead_s),

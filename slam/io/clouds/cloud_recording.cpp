@@ -16,6 +16,7 @@
 #include "slam/io/clouds/bin_cloud.h"
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/clouds/cloud_times.h"
+#include "slam/io/clouds/name_order.h"
 #include "slam/io/packets/point_units.h"
 
 namespace plumbline::slam {
@@ -23,40 +24,6 @@ namespace plumbline::slam {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// The run of digits that starts at i.
-std::string_view digits_at(std::string_view name, std::size_t i) {
-  std::size_t end = i;
-  while (end < name.size() && is_digit(name[end])) ++end;
-  return name.substr(i, end - i);
-}
-
-std::string_view without_zeros(std::string_view digits) {
-  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
-}
-
-/// 7.pcd before 10.pcd; digits behind a decimal point, as of a stamp, by their places.
-bool is_earlier_name(const std::string& a, const std::string& b) {
-  std::size_t i = 0, k = 0;
-  while (i < a.size() && k < b.size()) {
-    if (!is_digit(a[i]) || !is_digit(b[k])) {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i, ++k;
-      continue;
-    }
-    const bool is_fraction = i > 1 && a[i - 1] == '.' && is_digit(a[i - 2]);
-    const std::string_view of_a = digits_at(a, i), of_b = digits_at(b, k);
-    const std::string_view number_a = is_fraction ? of_a : without_zeros(of_a);
-    const std::string_view number_b = is_fraction ? of_b : without_zeros(of_b);
-    if (!is_fraction && number_a.size() != number_b.size()) return number_a.size() < number_b.size();
-    if (number_a != number_b) return number_a < number_b;
-    i += of_a.size();
-    k += of_b.size();
-  }
-  return a < b;
-}
 
 /// Of a cloud's file, .pcd.bin apart from .bin; empty of any other.
 std::string_view ending_of_cloud(std::string_view name) {

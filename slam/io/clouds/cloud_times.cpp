@@ -38,7 +38,7 @@ std::optional<Nanoseconds> parse_date(std::string_view text) {
   const auto hour = whole(text, 11, 2), minute = whole(text, 14, 2);
   Nanoseconds in_minute = 0;
   if (!year || !month || !day || !hour || !minute || !parse_stamp(text.substr(seconds_at), in_minute) ||
-      in_minute < 0 || in_minute > 60 * second_ns || *hour > 23 || *minute > 59 || *year < 1970 || *year > 2200)
+      in_minute < 0 || in_minute > 60 * second_ns || *hour > 23 || *minute > 59 || *year < 1970 || *year > 2095)
     return std::nullopt;
   const std::chrono::year_month_day date(std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
                                          std::chrono::day(static_cast<unsigned>(*day)));
@@ -76,8 +76,10 @@ std::optional<Nanoseconds> stamp_in(std::string_view name) {
     Nanoseconds unit = 0;
     for (const auto& [size, ns] : {std::pair<std::size_t, Nanoseconds>{13, 1'000'000}, {16, 1'000}, {19, 1}})
       if (whole.size() == size) unit = ns;
-    return unit > 0 && rest.starts_with('.') ? std::optional(value * unit) : std::nullopt;
+    return unit > 0 && value < furthest_stamp / unit && rest.starts_with('.') ? std::optional(value * unit)
+                                                                              : std::nullopt;
   }
+  if (value >= furthest_stamp / second_ns) return std::nullopt;
   value *= second_ns;
   if (rest.empty() || (rest.front() != '.' && rest.front() != '_')) return std::nullopt;
   const bool parts = rest.front() == '_';

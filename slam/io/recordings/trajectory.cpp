@@ -62,9 +62,8 @@ StampedPose parse_euroc(const Columns& columns, const Mark& mark) {
                                " columns between commas; a EuRoC line has 8 or more: t,px,py,pz,qw,qx,qy,qz");
   StampedPose pose;
   const auto [end, error] = std::from_chars(columns[0].data(), columns[0].data() + columns[0].size(), pose.stamp);
-  constexpr Nanoseconds furthest = 9'000'000'000'000'000'000;  // as of TUM's
   const bool whole = error == std::errc() && end == columns[0].data() + columns[0].size();
-  if (!whole || pose.stamp > furthest || pose.stamp < -furthest)
+  if (!whole || pose.stamp >= furthest_stamp || pose.stamp <= -furthest_stamp)
     throw InputError(mark,
                      "'" + std::string(columns[0].substr(0, 40)) +
                          "' is no time; a EuRoC line begins with whole nanoseconds, and a TUM line has no commas");

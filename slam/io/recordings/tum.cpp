@@ -39,7 +39,7 @@ bool parse_number(std::string_view text, double& value) {
 // Plain decimals without a detour through double; other notations through one.
 bool parse_stamp(std::string_view text, Nanoseconds& stamp) {
   double value = 0.0;
-  if (!parse_number(text, value) || std::abs(value) > 9e9) return false;
+  if (!parse_number(text, value) || std::abs(value) * 1e9 >= static_cast<double>(furthest_stamp)) return false;
   const std::size_t dot = text.find('.');
   if (text.find_first_of("eE-") != std::string_view::npos || dot == std::string_view::npos) {
     stamp = static_cast<Nanoseconds>(std::llround(value * 1e9));

@@ -15,7 +15,7 @@ namespace plumbline::slam {
 /// Reads one line. Throws InputError at the mark on another number of columns, text that is no number, or a quaternion
 /// that is no rotation.
 [[nodiscard]] StampedPose parse_tum_line(std::string_view line, const Mark& mark);
-/// Reads decimal seconds, to the nanosecond. False where the text is no number or beyond 9e9 s.
+/// Reads decimal seconds, to the nanosecond. False where the text is no number or 4e9 s or more from 0.
 [[nodiscard]] bool parse_stamp(std::string_view text, Nanoseconds& stamp);
 /// Of UTF-8, which some editors write before the first line.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);

@@ -110,5 +110,66 @@ TEST(Json, AKeyStandsOnceInAMap) {
   EXPECT_THROW(static_cast<void>(read_json(R"([{"c":{"a":1,"a":1}}])", "f")), InputError);
 }
 
+/// "k0: 0", "k1: 1", ... a line each.
+std::string many_keys(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "k" + std::to_string(i) + ": " + std::to_string(i) + "\n";
+  return text;
+}
+
+// Each map of 200000 keys would take minutes if a key were sought among all before it.
+TEST(Yaml, AMapMayHoldManyKeysEachOnce) {
+  constexpr int count = 200'000;
+  const std::string text = many_keys(count);
+  const Tree tree = read_yaml(text, "f.yaml");
+  ASSERT_EQ(tree.as_map().size(), std::size_t{count});
+  EXPECT_EQ(tree.as_map().back().first, "k199999");
+  EXPECT_EQ(tree.as_map().back().second.as_int(), count - 1);
+  EXPECT_EQ(input_error([&] { (void)read_yaml(text + "k77: 1\n", "f.yaml"); }),
+            "f.yaml:200001:1: duplicate key 'k77'; each key may stand once");
+}
+
+TEST(Json, AMapMayHoldManyKeysEachOnce) {
+  constexpr int count = 200'000;
+  std::string text = "{";
+  for (int i = 0; i < count; ++i) text += "\"k" + std::to_string(i) + "\":" + std::to_string(i) + ",";
+  const Tree tree = read_json(text + "\"last\":-1}", "f.json");
+  ASSERT_EQ(tree.as_map().size(), std::size_t{count + 1});
+  EXPECT_EQ(tree.as_map().front().first, "k0");
+  EXPECT_EQ(tree.as_map()[count - 1].second.as_int(), count - 1);
+  EXPECT_EQ(input_error([&] { (void)read_json(text + "\"k77\":1}", "f.json"); }),
+            "f.json: duplicate key 'k77'; each key may stand once");
+}
+
+TEST(Json, KeepsKindsPlacesOfErrorsAndBounds) {
+  const std::string text = R"({"a":[1,-2,0.5,1e3,true,false,null,"x",[],{}],"b":{"c":{}}})";
+  EXPECT_EQ(write_json(read_json(text, "f"), 0), R"({"a":[1,-2,0.5,1000,true,false,null,"x",[],{}],"b":{"c":{}}})");
+  EXPECT_EQ(input_error([] { (void)read_json("{\"a\":\n 1,}", "f"); }), "f:2:4: no valid JSON");
+  EXPECT_EQ(input_error([] { (void)read_json("", "f"); }), "f:1:1: no valid JSON");
+  EXPECT_NE(input_error([] { (void)read_json("[1] 2", "f"); }).find("no valid JSON"), std::string::npos);
+  EXPECT_NE(input_error([] { (void)read_json("[1e400]", "f"); }).find("no valid JSON"), std::string::npos);
+  const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
+  EXPECT_EQ(write_json(read_json(nested(65), "f"), 0), nested(65));
+  EXPECT_EQ(input_error([&] { (void)read_json(nested(66), "f"); }), "f: nested deeper than 64 levels");
+}
+
+TEST(Yaml, EveryByteOfTextSurvivesWriting) {
+  for (int byte = 1; byte < 0x80; ++byte) {
+    const char c = static_cast<char>(byte);
+    for (const std::string& text :
+         {std::string(1, c), std::string("a") + c + "b", std::string("a") + c, c + std::string("b")}) {
+      Tree tree = Tree::map();
+      tree.set(text, Tree::list().push(text).push("x")).set("value of " + text, text);
+      const std::string written = write_yaml(tree);
+      for (const char w : written) EXPECT_TRUE(w == '\n' || static_cast<unsigned char>(w) >= 0x20U) << byte;
+      const Tree read = read_yaml(written, "f");
+      ASSERT_EQ(read.as_map().size(), 2U) << byte;
+      EXPECT_EQ(read.as_map()[0].first, text) << byte;
+      EXPECT_EQ(read.as_map()[0].second.as_list()[0].as_string(), text) << byte;
+      EXPECT_EQ(read.as_map()[1].second.as_string(), text) << byte;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bim/config/tree.h"
+#include "scenarios/host/manifest.h"
 #include "scenarios/run/cloud_file.h"
 #include "scenarios/run/digest_log.h"
 #include "scenarios/run/estimate_file.h"
@@ -231,6 +232,41 @@ TEST(EstimateFile, RoundTrip) {
   EXPECT_EQ(again.estimate.segmented.at(0).point_mm, method.estimate.segmented[0].point_mm);
   EXPECT_EQ(again.estimate.segmented[0].plane, (std::vector<int>{-1, 2}));
   EXPECT_THROW(read_estimate("{}", "e.json", again), InputError);
+}
+
+TEST(EstimateFile, NumbersThatDoNotFitAreRefused) {
+  MethodRecord method, again;
+  method.name = "s_graphs_plus";
+  method.scans = 1111;
+  method.estimate.planes.push_back({2222, {{0.6, 0.8, 0.0}, -1.25}, {1, 2}, {3, 4}, 0.1, 2.9, 3333});
+  method.estimate.rooms.push_back({4444, slam::RoomKind::two_wall, {1, 2}, {{0, 0}, {1, 0}, {1, 1}}, {5555}});
+  method.estimate.floors.push_back({6666, {1, 2, 3}, {{0, 0, 1}, 0.0}});
+  method.estimate.segmented = {{300, {0, 0, 0.2}, {{7777, 20, 3}}, {8888}}};
+  const std::string text = write_estimate(method);
+  for (const std::string old : {"1111", "2222", "3333", "4444", "5555", "6666", "7777", "8888"})
+    for (const std::string number : {"2147483648", "4294967296", "-2147483649", "-9223372036854775808"}) {
+      std::string other = text;
+      ASSERT_NE(other.find(old), std::string::npos) << old;
+      other.replace(other.find(old), old.size(), number);
+      EXPECT_NE(input_error([&] { read_estimate(other, "e.json", again); }).find("a whole number from "),
+                std::string::npos)
+          << old << " " << number;
+    }
+  std::string other = text;
+  other.replace(other.find("1111"), 4, "-1");
+  EXPECT_NE(input_error([&] { read_estimate(other, "e.json", again); }).find("from 0 to"), std::string::npos);
+}
+
+TEST_F(Files, AManifestIsOfFilesAndNotOfBrokenLinks) {
+  write_file(path("a.csv"), "1");
+  fs::create_symlink("loop", path("loop"));
+  fs::create_symlink("nowhere", path("dangling"));
+  write_manifest(folder_.path());
+  EXPECT_TRUE(altered_files(folder_.path(), {}).empty());
+  const std::string text = read_text_file(path("manifest.csv"));
+  EXPECT_NE(text.find("a.csv,"), std::string::npos);
+  EXPECT_EQ(text.find("loop"), std::string::npos);
+  EXPECT_EQ(text.find("dangling"), std::string::npos);
 }
 
 TEST(EstimateFile, BeliefsRoundTrip) {

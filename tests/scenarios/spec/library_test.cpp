@@ -63,6 +63,19 @@ TEST(Library, ANameOfNoScenarioIsRefusedWithWhereTheNamesAre) {
   EXPECT_EQ(find_input("nosuch.yaml"), "nosuch.yaml");
 }
 
+TEST(Library, ABrokenLinkIsNoScenario) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  fs::create_directory(folder / "inner");
+  fs::copy_file(library() + "/quickstart.yaml", folder / "inner/one.yaml");
+  fs::create_symlink("loop.yaml", folder / "loop.yaml");
+  fs::create_symlink("nowhere.yaml", folder / "dangling.yaml");
+  fs::create_directory_symlink(folder.path(), folder / "inner/again");
+  fs::create_directory(folder / "folder.yaml");
+  EXPECT_EQ(scenario_files(folder.path()), std::vector<std::string>{folder / "inner/one.yaml"});
+  EXPECT_TRUE(scenario_files(folder / "none").empty());
+}
+
 TEST(Library, TheHouseOfTheFirstSiteIsWhatOurWriterMakesOfItsPlan) {
   const std::string house = library() + "/s_graphs/c1";
   EXPECT_TRUE(read_text_file(house + ".ifc") == bim::write_ifc(bim::load_building(house + ".plan.yaml")))

@@ -74,6 +74,9 @@ TEST_P(BaselineButThePapers, MovesWithThePlan) {
   const Pose X_VW = Pose::from_xyz_yaw({17.0, -40.0, 6.0}, 2.1);
   const auto here = synthetic::localize(GetParam(), recording(), plan, false);
   const auto there = synthetic::localize(GetParam(), recording(), synthetic::moved(plan, X_VW), false);
+  ASSERT_FALSE(here.outputs.empty());
+  ASSERT_EQ(here.outputs.size(), there.outputs.size());
+  std::size_t compared = 0;
   for (std::size_t k = 0; k < here.outputs.size(); ++k) {
     ASSERT_EQ(here.outputs[k].state, there.outputs[k].state);
     ASSERT_EQ(here.outputs[k].hypotheses.size(), there.outputs[k].hypotheses.size());
@@ -81,8 +84,10 @@ TEST_P(BaselineButThePapers, MovesWithThePlan) {
       const Hypothesis &a = here.outputs[k].hypotheses[i], &b = there.outputs[k].hypotheses[i];
       EXPECT_NEAR(a.mass, b.mass, 1e-6);
       EXPECT_LT((X_VW * a.X_WR.t - b.X_WR.t).norm(), 1e-3);
+      ++compared;
     }
   }
+  EXPECT_GT(compared, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(PlanMethod, Baseline, testing::Values("s_graph_localization_paper", "amcl", "ukf", "micp"),

@@ -88,7 +88,8 @@ TEST(WatchedOdometry, ScansTakeOverWhereItFallsSilentOrStandsUntilItGoesOn) {
       EXPECT_GT(walked.by_scans, until_s == never ? 45 : 20) << stands;
       EXPECT_EQ(walked.by_scans_at_end, until_s == never) << stands;
       EXPECT_EQ(walked.unknown, 0) << stands;
-      // Until it is noticed that odometry stands the pose does, too: for 0.3 m and three scans, where a stop is no jump.
+      // Until it is noticed that odometry stands the pose does, too: for 0.3 m and three scans, where a stop is no
+      // jump.
       EXPECT_LT(walked.worst_m, stands ? 0.55 : 0.1) << until_s;
     }
 }

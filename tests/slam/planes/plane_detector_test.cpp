@@ -276,12 +276,15 @@ TEST(DetectPlanesTest, ExtentsEndWhereTheWallsEnd) {
   synthetic::WalkConfig walk;
   walk.dropout = 0.0;
   const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.5, 0.46}, 0.3);
+  int walls = 0;
   for (const PlaneObservation& seen : detect_planes(standing(synthetic::one_room(6.0, 4.0), X_WR, walk), {})) {
     if (!seen.vertical) continue;
+    ++walls;
     const bool along_x = std::abs((X_WR.q * seen.plane_R.n).y()) > 0.5;
     EXPECT_NEAR((seen.p1_R - seen.p0_R).norm(), along_x ? 6.0 : 4.0, 0.15);
     EXPECT_GT(seen.plane_R.distance(synthetic::calibration().X_RL.t), 0.0) << "normals point to the sensor";
   }
+  EXPECT_EQ(walls, 4);
 }
 
 TEST(DetectPlanesTest, ReturnsThatSpanNoPlaneMakeNone) {

@@ -73,7 +73,9 @@ std::optional<StepConic> conic_of(const StepEntities& entities, const StepEntiti
 }
 
 int arc_pieces(double angle, double radius, double depth) {
-  const double piece = std::clamp(std::sqrt(8.0 * depth / radius), finest_rad, corner_rad);
+  const double cut = std::sqrt(8.0 * depth / radius);
+  if (!std::isfinite(angle) || std::isnan(cut)) throw InputError({}, "an arc of no finite angle and radius");
+  const double piece = std::clamp(cut, finest_rad, corner_rad);
   return std::max(2, static_cast<int>(std::ceil(std::abs(angle) / piece - 1e-6)));
 }
 

@@ -32,7 +32,8 @@ struct StepConic {
 inline constexpr double arc_depth_m = 1.5e-3;
 
 /// How many pieces stand for an arc of an angle: one for each 10 degrees, two at least; more where they would cut
-/// deeper than `depth`, which is in the unit of the radius, but at most two for each degree.
+/// deeper than `depth`, which is in the unit of the radius, but at most two for each degree. Throws InputError where
+/// angle or radius is no number.
 [[nodiscard]] int arc_pieces(double angle, double radius, double depth);
 
 /// From the point first to the point last on the conic; a whole turn where they are the same. Forward is

@@ -144,6 +144,7 @@ class Plain {
       flat = entities_.attributes(first, "IFCCARTESIANPOINT").at(0).as_list().size() == 2;
     }
     if (line.size() < 2 || !edits_.has_room(line.size())) return;
+    if (!std::all_of(line.begin(), line.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); })) return;
     std::string polyline;
     for (const Eigen::Vector3d& p : line)
       polyline += (polyline.empty() ? "" : ",") +

@@ -2,6 +2,7 @@
 #include "bim/formats/ifc/step/step_edits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bim/config/tree.h"
 
@@ -64,6 +65,7 @@ std::string StepEdits::done() const {
 }
 
 std::string StepEdits::real(double v) {
+  if (!std::isfinite(v)) throw InputError({}, "a number that is not finite; smaller numbers would be right");
   std::string text = format_number(v);
   std::replace(text.begin(), text.end(), 'e', 'E');
   const std::size_t exponent = std::min(text.find('E'), text.size());

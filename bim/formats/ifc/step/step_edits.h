@@ -27,7 +27,7 @@ class StepEdits {
   /// The text with all of it.
   [[nodiscard]] std::string done() const;
 
-  /// A number as STEP writes it.
+  /// A number as STEP writes it. Throws InputError where it is not finite.
   [[nodiscard]] static std::string real(double v);
   /// An entity with its attributes, up to the closing bracket.
   [[nodiscard]] static std::string_view whole(const StepEntities::Entity& entity);

@@ -141,6 +141,11 @@ TEST(Cdr, LivoxMessagesAreClouds) {
     std::memcpy(&other_clock[4 + 8 + 4 + 12], &base, sizeof base);
     EXPECT_EQ(ros::read_livox(other_clock, Encoding::cdr).cloud.stamp, 1'000'000'000) << "of the header";
   }
+  for (const std::uint64_t base : {std::uint64_t{4'000'000'000'000'000'000}, ~std::uint64_t{0} / 2}) {
+    std::vector<std::uint8_t> no_time = m;
+    std::memcpy(&no_time[4 + 8 + 4 + 12], &base, sizeof base);
+    EXPECT_THROW((void)ros::read_livox(no_time, Encoding::cdr), InputError) << base;
+  }
   // Two more points than said before.
   const std::uint32_t other = points + 2;
   std::memcpy(&m[4 + 8 + 4 + 12 + 8], &other, sizeof other);

@@ -44,6 +44,15 @@ TEST(TopicClocksTest, AnImuMayBeOnAnotherClock) {
             "the stamps on /a are 37.0 s ahead of those on /imu, by the times of recording");
 }
 
+TEST(TopicClocksTest, StampsMayBeCenturiesApart) {
+  constexpr Nanoseconds far = 4'000'000'000 * second - 1;
+  TopicClocks clocks;
+  clocks.add_scan(far, -far);
+  clocks.add_odometry(-far, far);
+  EXPECT_EQ(clocks.difference("/a", "/b"),
+            "the stamps on /a are 16000000000.0 s ahead of those on /b, by the times of recording");
+}
+
 TEST(TopicClocksTest, OneTopicTellsNothing) {
   TopicClocks clocks;
   clocks.add_scan(0, 100 * second);

@@ -10,6 +10,7 @@
 
 #include "bim/errors.h"
 #include "slam/io/clouds/cloud_file.h"
+#include "slam/io/clouds/name_order.h"
 #include "slam/io/packets/point_cloud.h"
 #include "tests/folder.h"
 #include "tests/slam/io/clouds/bin_file.h"
@@ -107,6 +108,55 @@ TEST(CloudRecording, OrdersNamesByTheirNumbers) {
   EXPECT_EQ(widths({"s1_9.ply", "s1_10.ply", "s2_1.ply", "s10_0.ply"}), rising);
   EXPECT_EQ(widths({"17.45.pcd", "17.5.pcd", "18.05.pcd", "18.1.pcd"}), rising) << "fractions of a second";
   EXPECT_EQ(widths({"0007.pcd", "0010.pcd", "0100.pcd", "a.pcd"}), rising);
+}
+
+TEST(NameOrder, IsAStrictWeakOrder) {
+  const std::vector<std::string> names = {"",
+                                          "x",
+                                          "x1",
+                                          "x01",
+                                          "x1.pcd",
+                                          "x01.pcd",
+                                          "x1.pcd.a.pcd",
+                                          "x01.pcd.b.pcd",
+                                          "x1.pcd.b.pcd",
+                                          "x10.pcd",
+                                          "x2.pcd",
+                                          "0",
+                                          "00",
+                                          "000",
+                                          "0a",
+                                          "00a",
+                                          "1.5",
+                                          "1.50",
+                                          "1.05",
+                                          "01.5",
+                                          "01.50.a",
+                                          "1.5.2",
+                                          "1..5",
+                                          ".5",
+                                          ".50",
+                                          "0.5",
+                                          "a.5",
+                                          "1.a",
+                                          "1.10",
+                                          "1-10",
+                                          "1 10",
+                                          "x1.",
+                                          "x01.0",
+                                          "\xc3\xa9"
+                                          "1",
+                                          "9",
+                                          "99999999999999999999"};
+  for (const std::string& a : names) {
+    for (const std::string& b : names) {
+      EXPECT_EQ(is_earlier_name(a, b) || is_earlier_name(b, a), a != b) << a << " | " << b;
+      EXPECT_FALSE(is_earlier_name(a, b) && is_earlier_name(b, a)) << a << " | " << b;
+      for (const std::string& c : names)
+        if (is_earlier_name(a, b) && is_earlier_name(b, c))
+          EXPECT_TRUE(is_earlier_name(a, c)) << a << " | " << b << " | " << c;
+    }
+  }
 }
 
 TEST(CloudRecording, TakesTimesFromZeroToOneAsSharesOfAPeriod) {

@@ -24,8 +24,9 @@ TEST(CloudTimes, AreSecondsOrDates) {
 }
 
 TEST(CloudTimes, OtherLinesAreRefusedByNumber) {
-  for (const char* line : {"x", "-1", "1 2", "nan", "1e300", "2011-13-26 13:02:25", "2011-02-30 13:02:25",
-                           "2011-09-26 25:02:25", "2011-09-26 13:02:99", "2011-09-26 13:02:", "2011-09-26 13:0-:25"})
+  for (const char* line :
+       {"x", "-1", "1 2", "nan", "1e300", "2011-13-26 13:02:25", "2011-02-30 13:02:25", "2011-09-26 25:02:25",
+        "2011-09-26 13:02:99", "2011-09-26 13:02:", "4000000000", "2096-11-01 00:00:00", "2011-09-26 13:0-:25"})
     EXPECT_EQ(input_error([&] { (void)read_cloud_times("0\n" + std::string(line) + "\n", "t.txt"); }).find("t.txt:2"),
               0U)
         << line;
@@ -49,6 +50,9 @@ TEST(CloudTimes, MayBeTheNamesOfTheClouds) {
                                                 {"0000000001.bin", "0000000002.bin"},
                                                 {"1700000000_1.pcd", "1700000000_2.pcd"},
                                                 {"17000000001.pcd", "17000000002.pcd"},
+                                                {"4000000000.0.pcd", "4000000001.0.pcd"},
+                                                {"9000000000000.pcd", "9999999999999.pcd"},
+                                                {"9000000000000000000.pcd", "9000000000000000001.pcd"},
                                                 {"1700000000.0.pcd", "a.pcd"}})
     EXPECT_TRUE(stamps_in(names).empty()) << names.front();
 }

@@ -87,6 +87,9 @@ TEST(Trajectory, NamesTheLineThatIsWrong) {
   EXPECT_EQ(complaint(euroc + "200,1,2,3,1,0,0\n").rfind("t.txt:3:1: 7 columns between commas", 0), 0U);
   EXPECT_EQ(complaint(euroc + "200,1,2,x,1,0,0,0\n").rfind("t.txt:3:1: 'x' is not a number", 0), 0U);
   EXPECT_EQ(complaint(euroc + "2.5,1,2,3,1,0,0,0\n").rfind("t.txt:3:1: '2.5' is no time", 0), 0U);
+  EXPECT_EQ(complaint(euroc + "3999999999999999999,1,2,3,1,0,0,0\n"), "no error");
+  EXPECT_EQ(complaint(euroc + "4000000000000000000,1,2,3,1,0,0,0\n").rfind("t.txt:3:1: '4000000000000000000' is no", 0),
+            0U);
   EXPECT_EQ(complaint(euroc + "9223372036854775807,1,2,3,1,0,0,0\n").rfind("t.txt:3:1: '9223372036854775807' is no", 0),
             0U);
   EXPECT_EQ(complaint(euroc + "200,1,2,3,1,1,0,0\n").rfind("t.txt:3:1: the quaternion", 0), 0U);

@@ -42,6 +42,10 @@ TEST(Tum, NamesTheLineThatIsWrong) {
   EXPECT_EQ(complaint(good + "1.0 1 2 -1e100 0 0 0 1\n").rfind("t.tum:2:1: a position's coordinates", 0), 0U);
   EXPECT_EQ(complaint("1700000000100839168 1 2 3 0 0 0 1\n"),
             "t.tum:1:1: '1700000000100839168' is no time in seconds; is it in nanoseconds?");
+  EXPECT_EQ(complaint("3999999999.5 1 2 3 0 0 0 1\n"), "no error");
+  for (const std::string time : {"4000000000", "4000000000.0", "-4e9", "8999999999.9"})
+    EXPECT_EQ(complaint(time + " 1 2 3 0 0 0 1\n"),
+              "t.tum:1:1: '" + time + "' is no time in seconds; is it in nanoseconds?");
   EXPECT_EQ(complaint(good + good).rfind("t.tum:2:1: stamps must increase", 0), 0U);
   const auto other = read_tum("# comment\n\n1.5e0 1 2 3 0 0 0 1\n1403636580.123456789 1\t2 3 0 0 0 1\r\n", "t");
   ASSERT_EQ(other.size(), 2U);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,6 +157,40 @@ TEST(Arcs, OfAnyRadiusHaveABoundedNumberOfPieces) {
   const StepBody body = body_of(sketch, sketch.extruded(profile, 0, 1));
   ASSERT_EQ(body.solids.size(), 1U);
   EXPECT_EQ(body.solids[0].vertices.size(), 2 * 720U);
+}
+
+/// A column of 1 m^2 in a file whose other column is bounded by the curve.
+StepModel beside_a_column(Sketch& sketch, const std::string& curve) {
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.box(0, 0, 0, 1, 1, 1)), "$,$");
+  return read_model(prism_text(sketch, {curve, line_through(sketch, {{0, 1}, {0, 0}, {1, 0}})}));
+}
+
+TEST(Arcs, WithoutFinitePointsSpoilTheirElementAlone) {
+  for (const char* kind : {"indices", "ellipse", "circle", "line"}) {
+    Sketch sketch;
+    const std::string way = kind, trims = ",(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(2.)),.T.,.PARAMETER.)";
+    std::string curve;
+    if (way == "indices") {
+      const std::string list = sketch.add("IFCCARTESIANPOINTLIST2D(((1.E100,0.),(1.E100,1.E100),(0.,1.E100)),$)");
+      curve = sketch.add("IFCINDEXEDPOLYCURVE(" + list + ",(IFCARCINDEX((1,2,3))),.F.)");
+    } else if (way == "line") {
+      const std::string vector = sketch.add("IFCVECTOR(" + sketch.add("IFCDIRECTION((1.,0.))") + ",1.E308)");
+      curve = sketch.add("IFCTRIMMEDCURVE(" + sketch.add("IFCLINE(" + sketch.point(1, 0) + "," + vector + ")") + trims);
+    } else {
+      const std::string at =
+          sketch.add("IFCAXIS2PLACEMENT2D(" + sketch.add("IFCCARTESIANPOINT((1.E308,1.E308))") + ",$)");
+      const std::string size =
+          way == "circle" ? "IFCCIRCLE(" + at + ",1.E308)" : "IFCELLIPSE(" + at + ",1.E308,1.E308)";
+      curve = sketch.add("IFCTRIMMEDCURVE(" + sketch.add(size) + trims);
+    }
+    const StepModel model = beside_a_column(sketch, curve);
+    EXPECT_EQ(model.products.size() + static_cast<std::size_t>(model.out_of_reach), 2U) << kind;
+    const auto whole = [](const StepProduct& product) {
+      return product.diagnostics.empty() && product.body.size() == 1;
+    };
+    // IFC++ closes the outline without the line.
+    EXPECT_EQ(std::count_if(model.products.begin(), model.products.end(), whole), way == "line" ? 2 : 1) << kind;
+  }
 }
 
 TEST(Splines, LargeOnesAreCutByTheirDepth) {

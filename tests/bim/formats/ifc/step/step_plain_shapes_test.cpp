@@ -197,5 +197,18 @@ TEST(Profiles, PartsOfACompositeStandBesideEachOther) {
   EXPECT_NEAR(body.box().max().x(), 11.5, 1e-6);
 }
 
+TEST(Blocks, ThatReachBeyondAllNumbersAreLeftOutAlone) {
+  Sketch sketch;
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.box(0, 0, 0, 1, 1, 1)), "$,$");
+  const std::string at =
+      sketch.add("IFCAXIS2PLACEMENT3D(" + sketch.add("IFCCARTESIANPOINT((1.7E308,0.,0.))") + ",$,$)");
+  sketch.element("IFCCOLUMN", sketch.shape(sketch.add("IFCBLOCK(" + at + ",1.7E308,1.,1.)")), "$,$");
+  const StepModel model = read_model(sketch.text());
+  EXPECT_EQ(model.products.size() + static_cast<std::size_t>(model.out_of_reach), 2U);
+  ASSERT_FALSE(model.products.empty());
+  EXPECT_EQ(model.products[0].body.size(), 1U);
+  EXPECT_TRUE(model.products[0].diagnostics.empty());
+}
+
 }  // namespace
 }  // namespace plumbline::bim
