@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -150,6 +151,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   stream_ = own_stream;
   output_ = own_output;
   timer_ = ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  const int no_timer = errno;
   ::fcntl(stream_, F_SETFL, O_NONBLOCK);
   // A whole scan goes through in few turns; the system may allow less.
   constexpr int scan_bytes = 4 << 20;
@@ -159,6 +161,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   std::vector<std::string> marked = variables;
   marked.push_back(mark_);
   try {
+    if (timer_ < 0) throw EnvironmentError("no deadline of a process can be set: " + error_text(no_timer));
     pid_ = spawn({command, folder, environment_with(marked), its_output, its_stream, inherited});
   } catch (...) {
     for (const int descriptor : {its_stream, its_output}) ::close(descriptor);
@@ -198,10 +201,13 @@ void Child::kill_all() const {
 
 void Child::set_deadline(double seconds) {
   deadline_s_ = seconds;
+  constexpr std::int64_t second_ns = 1'000'000'000;
+  const std::int64_t ns = std::max<std::int64_t>(1, std::llround(1e9 * seconds));  // 0 would stop the timer
   itimerspec time{};
-  time.it_value.tv_sec = static_cast<time_t>(seconds);
-  time.it_value.tv_nsec = static_cast<long>(1e9 * (seconds - std::floor(seconds))) + 1;
-  ::timerfd_settime(timer_, 0, &time, nullptr);
+  time.it_value.tv_sec = ns / second_ns;
+  time.it_value.tv_nsec = ns % second_ns;
+  if (::timerfd_settime(timer_, 0, &time, nullptr) != 0)
+    throw EnvironmentError("no deadline of a process can be set: " + error_text(errno));
 }
 
 void Child::send(const void* bytes, std::size_t size) {

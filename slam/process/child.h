@@ -36,7 +36,7 @@ class Child {
   Child& operator=(const Child&) = delete;
   Child& operator=(Child&&) = delete;
 
-  /// From now on send() and receive() together may take this long by the wall clock.
+  /// From now on send() and receive() together may take this long by the wall clock. Throws EnvironmentError.
   void set_deadline(double seconds);
   /// All bytes, or ProcessFailure: the process ended, or the time is over.
   void send(const void* bytes, std::size_t size);
