@@ -237,11 +237,7 @@ void Child::receive(void* bytes, std::size_t size) {
     } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
       const Ready ready = wait_for(POLLIN);
       if (ready == Ready::ended) fail_as_it_ended();
-      if (ready == Ready::over) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%g s", deadline_s_);
-        throw ProcessFailure("gave no answer within " + std::string(text));
-      }
+      if (ready == Ready::over) fail_as_late();
     } else {
       fail_as_it_ended();
     }
@@ -278,13 +274,24 @@ void Child::read_printed() {
   }
 }
 
+bool Child::time_is_over() const {
+  if (go_on_) go_on_();
+  pollfd timer{timer_, POLLIN, 0};
+  return ::poll(&timer, 1, 0) > 0;
+}
+
+// It may write for as long as it is read.
 bool Child::close_and_wait() {
   ::shutdown(stream_, SHUT_WR);
-  char byte = 0;
+  std::array<char, 65536> passed_over;
   for (;;) {
-    const ssize_t got = ::recv(stream_, &byte, 1, 0);
+    const ssize_t got = ::recv(stream_, passed_over.data(), passed_over.size(), 0);
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
-    if (got > 0) continue;
+    if (got > 0) {
+      sent_more_ = true;
+      if (time_is_over()) return false;
+      continue;
+    }
     const Ready ready = wait_for(POLLIN);
     if (ready == Ready::over) return false;
     if (ready == Ready::ended) break;
@@ -306,6 +313,16 @@ bool Child::reap() {
 }
 
 double Child::cpu_ms() const { return ended_ ? 0.0 : 1e3 * process_cpu_s(pid_); }
+
+void Child::check_time() const {
+  if (time_is_over()) fail_as_late();
+}
+
+void Child::fail_as_late() const {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", deadline_s_);
+  throw ProcessFailure("gave no answer within " + std::string(text));
+}
 
 void Child::fail_as_it_ended() {
   const std::string how = how_it_ended();

@@ -77,7 +77,10 @@ class Conversation {
   void end() {
     constexpr double strict_s = 5.0;
     child_.set_deadline(command_.strict ? strict_s : command_.finish_s);
-    if (child_.close_and_wait() || !command_.strict) return;
+    const bool well = child_.close_and_wait();
+    if (!command_.strict) return;
+    if (child_.sent_more()) throw ProcessFailure("sends more after its estimate, which nobody reads");
+    if (well) return;
     if (child_.ended()) throw ProcessFailure(child_.how_it_ended() + " after its last answer, where 0 is due");
     throw ProcessFailure(
         "did not end within 5 s of its last answer, or what it started did not; end when the connection is closed");
@@ -89,11 +92,14 @@ class Conversation {
     child_.send(payload, head.size);
   }
 
-  /// Lines for the log are passed over.
+  /// Lines for the log are passed over, as long as there is time.
   [[nodiscard]] Bytes receive(wire::Type wanted) {
     for (;;) {
       Message message = receive_one();
-      if (message.type == wire::Type::log) continue;
+      if (message.type == wire::Type::log) {
+        child_.check_time();
+        continue;
+      }
       if (message.type == wire::Type::fail)
         throw ProcessFailure("gave up: " + shortened(utf8_of_bytes(text_of(message.payload)), longest_reason));
       if (message.type == wanted) return std::move(message.payload);

@@ -44,6 +44,11 @@ void send(wire::Type type, const void* bytes, std::size_t size) { send(type, byt
   for (;;) ::pause();
 }
 
+/// Until nobody reads it any more.
+void send_without_end(const std::vector<char>& bytes) {
+  while (::send(stream, bytes.data(), bytes.size(), MSG_NOSIGNAL) > 0) continue;
+}
+
 wire::Output good(std::int64_t stamp_ns) {
   wire::Output output;
   output.stamp_ns = stamp_ns;
@@ -130,6 +135,12 @@ bool misbehave(const std::string& how, wire::Output& output) {
 
 int main(int argc, char** argv) {
   const std::string how = argc > 1 ? argv[1] : "good";
+  if (how == "logs_on") {
+    const wire::Head head{wire::magic, static_cast<std::uint16_t>(wire::Type::log), 0, 0};
+    std::vector<char> lines(1000 * sizeof head);
+    for (std::size_t at = 0; at < lines.size(); at += sizeof head) std::memcpy(&lines[at], &head, sizeof head);
+    send_without_end(lines);
+  }
   const int good_scans = argc > 2 ? std::atoi(argv[2]) : 10;
   if (how == "dies_at_once") {
     std::fprintf(stderr, "libcuda is missing\n");
@@ -173,3 +184,4 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+        if (how == "finish_floods") send_without_end(std::vector<char>(1 << 16));

@@ -158,6 +158,7 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
   wrong({program("hostile_process"), "no_json"}, "what is no JSON");
+  wrong({program("hostile_process"), "finish_floods"}, "sends more after its estimate, which nobody reads");
   wrong({program("hostile_process"), "no_json"}, "a method that localizes in one is tried with --plan");
   EXPECT_EQ(good.out.find("--plan"), std::string::npos) << good.out;
   for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}, {""}, {" "}})
@@ -238,6 +239,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
       {"quaternion", "the pose is none"},
       {"far", "the pose is none"},
       {"state", "has the state 9"},
+      {"logs_on", "gave no answer within 0.5 s"},
       {"hypotheses", "has hypotheses, which only a localization"},
       {"otherwise", "does not repeat"},
       {"twice", "at scan 12"},
@@ -259,7 +261,8 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   EXPECT_EQ(outcome.code, 1) << outcome.err;  // without any gate
   EXPECT_TRUE(fs::exists(folder_ / "run/replay.html"));
   const nlohmann::json results = json(folder_ / "run/results.json")["methods"];
-  for (const std::string name : {"odometry", "good", "floods", "logs"})
+  for (const std::string name : {"odometry", "good", "floods", "logs", "finish_floods"})
+  methods += "  - {name: finish_floods, command: [" + program("hostile_process") + ", finish_floods], finish_s: 1}\n";
     EXPECT_EQ(results[name]["verdict"], "complete") << name;
   const auto crashed = [&](const std::string& name, const std::string& reason) {
     EXPECT_EQ(results[name]["verdict"], "crashed") << name;
