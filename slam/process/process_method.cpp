@@ -157,6 +157,7 @@ class ProcessMethod final : public Method {
     with_context(when, [&] {
       const double before_ms = first_->cpu_ms();
       const Bytes answer = ask_step(*first_, scan);
+      if (command_.answered) command_.answered(answer);
       output = read_output(answer, scan.stamp, command_.needs_plan);
       output.times.push_back({"process", std::max(0.0, first_->cpu_ms() - before_ms)});
       if (second_ && ask_step(*second_, scan) != answer)
@@ -171,6 +172,7 @@ class ProcessMethod final : public Method {
     Estimate estimate;
     with_context("at the end", [&] {
       const Bytes answer = first_->ask_finish();
+      if (command_.answered) command_.answered(answer);
       estimate = read_estimate(answer, command_.needs_plan, command_.strict);
       if (second_ && second_->ask_finish() != answer)
         throw ProcessFailure("does not repeat: a second process gives another estimate");

@@ -160,6 +160,9 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({program("hostile_process"), "no_json"}, "what is no JSON");
   wrong({program("hostile_process"), "finish_floods"}, "sends more after its estimate, which nobody reads");
   wrong({program("hostile_process"), "no_json"}, "a method that localizes in one is tried with --plan");
+  wrong({program("hostile_process"), "good"}, "ok    repeats to the last bit");
+  wrong({program("hostile_process"), "particle_otherwise"}, "the same records gave another answer at scan 11; replay");
+  wrong({program("hostile_process"), "finish_otherwise"}, "the same records gave another estimate at the end; replay");
   EXPECT_EQ(good.out.find("--plan"), std::string::npos) << good.out;
   for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}, {""}, {" "}})
     EXPECT_EQ(tried(words).code, 2);
