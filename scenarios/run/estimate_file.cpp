@@ -387,4 +387,15 @@ void round_as_written(MethodRecord& method) {
   }
 }
 
+void check_finite(const BeliefRecord& belief) {
+  for (slam::Hypothesis hypothesis : belief.hypotheses) round_as_written(hypothesis);
+  for (const slam::Particle& particle : belief.particles) (void)rounded(particle);
+}
+
+void check_finite(const slam::Estimate& estimate) {
+  slam::Estimate copy = estimate;
+  round_as_written(copy);
+  if (!estimate.graph.is_null()) (void)write_json(estimate.graph, 0);
+}
+
 }  // namespace plumbline::scenarios

@@ -8,6 +8,7 @@
 #include "bim/config/utf8.h"
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
+#include "scenarios/run/estimate_file.h"
 #include "slam/io/pose_check.h"
 #include "slam/io/stopwatch.h"
 #include "slam/process/shortened.h"
@@ -81,6 +82,7 @@ void MethodRecorder::on_scan(slam::Nanoseconds stamp, const std::function<slam::
 void MethodRecorder::keep(const slam::Output& output) {
   if (output.X_FR) check(*output.X_FR);
   for (const slam::Hypothesis& hypothesis : output.hypotheses) check(hypothesis.X_WR);
+  if (record_.localization) check_finite(BeliefRecord{output.stamp, output.state, output.hypotheses, output.particles});
   ++record_.scans;
   keep_lost(output);
   if (output.degenerate_directions > 0) ++record_.degenerate_scans;
@@ -125,6 +127,7 @@ MethodRecord MethodRecorder::finish(const std::function<slam::Estimate()>& estim
       const slam::Stopwatch watch;
       slam::Estimate answer = estimate();
       for (const slam::StampedPose& pose : answer.trajectory) check(pose.X_FR);
+      check_finite(answer);
       record_.estimate = std::move(answer);
       if (!record_.times.empty()) add_time(record_.times, {"finish", watch.cpu_ms()});
       record_.digests.push_back({last_stamp_, record_.name + "/estimate", digest_of(record_.estimate)});

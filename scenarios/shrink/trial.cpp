@@ -14,14 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int bad_input = 2, environment_failed = 3, first_signal = 128;
+constexpr int bad_input = 2, first_signal = 128;
 
 std::string folder_of(const std::string& folder, std::size_t i) { return folder + "/trial" + std::to_string(i); }
-
-/// A full disk ends a search; what a building or a method of a trial brings to an error does not.
-bool is_of_environment(const ChildEnd& end) {
-  return end.code == environment_failed && !end.last_line.starts_with("plumbline: internal error");
-}
 
 /// What a child says, without the folder that it was tried in.
 std::string said(const ChildEnd& end, const std::string& folder) {
@@ -31,6 +26,7 @@ std::string said(const ChildEnd& end, const std::string& folder) {
   return text;
 }
 
+/// A full disk ends a search; what a building or a method of a trial brings to an error does not.
 Trial trial_of(const ChildEnd& end, const std::string& folder) {
   if (is_of_environment(end)) throw EnvironmentError("a run could not be made: " + end.last_line);
   Trial trial;

@@ -23,7 +23,7 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr int could_not_start = 127;
+constexpr int environment_failed = 3, could_not_start = 127, first_signal = 128;
 
 /// In the child: nothing here may allocate.
 [[noreturn]] void become(const char* program, char* const* argv, int log, pid_t parent) {
@@ -100,7 +100,7 @@ class Running {
       children_.erase(found);
       const std::string said = last_line(log);
       ::close(log);
-      return {index, {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), said}};
+      return {index, {WIFEXITED(status) ? WEXITSTATUS(status) : first_signal + WTERMSIG(status), said}};
     }
   }
 
@@ -114,6 +114,16 @@ class Running {
 };
 
 }  // namespace
+
+bool is_of_environment(const ChildEnd& end) {
+  return end.code == environment_failed && !end.last_line.starts_with("plumbline: internal error");
+}
+
+bool broke(const ChildEnd& end) {
+  constexpr std::array<int, 6> own = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP};
+  if (end.code == environment_failed) return !is_of_environment(end) && !end.last_line.ends_with("std::bad_alloc");
+  return std::find(own.begin(), own.end(), end.code - first_signal) != own.end();
+}
 
 std::string without_place(const std::string& last_line, const std::string& folder) {
   if (!last_line.starts_with(folder)) return last_line;

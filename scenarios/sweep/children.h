@@ -13,6 +13,12 @@ struct ChildEnd {
   std::string last_line;
 };
 
+/// Whether the system failed a child, as a full disk does: exit code 3 without an internal error of the program.
+[[nodiscard]] bool is_of_environment(const ChildEnd& end);
+/// Whether the program itself broke: an internal error, or a signal that it brings on itself. Signals that others send,
+/// as where memory runs out, are none.
+[[nodiscard]] bool broke(const ChildEnd& end);
+
 /// The last line of a child without the place in a file of `folder` at its begin, which the user did not write.
 [[nodiscard]] std::string without_place(const std::string& last_line, const std::string& folder);
 

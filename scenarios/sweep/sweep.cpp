@@ -94,15 +94,24 @@ InputError error_of(const Refusal& refusal) {
               refusal.reason};
 }
 
+/// Why a run failed.
+std::string failure_of(const ChildEnd& end) {
+  constexpr int first_signal = 128;
+  if (end.code <= first_signal) return end.last_line;
+  return "the program died of signal " + std::to_string(end.code - first_signal);
+}
+
+/// A run that breaks the program would break it again whenever the sweep goes on: it has failed, and the others stand.
 void keep(const Sweep& sweep, const SweepFolder& folder, const SweepRun& run, const ChildEnd& end) {
   constexpr int scenario_failed = 4;
-  if (end.code != 0 && end.code != 1 && end.code != scenario_failed)
+  if (end.code != 0 && end.code != 1 && end.code != scenario_failed && !broke(end))
     throw EnvironmentError("sweep: run " + run.key + " ended with " + std::to_string(end.code) + ": " + end.last_line);
   const auto left = [&](const char* name) -> std::optional<Tree> {
     const std::string file = folder.work() + "/" + run.key + "/" + name;
-    return fs::exists(file) ? std::optional(read_json(read_text_file(file), file)) : std::nullopt;
+    return fs::exists(file) && !broke(end) ? std::optional(read_json(read_text_file(file), file)) : std::nullopt;
   };
-  const Tree result = result_of(run, left("results.json"), left("digests.json"), methods_of(sweep, run), end.last_line);
+  const Tree result =
+      result_of(run, left("results.json"), left("digests.json"), methods_of(sweep, run), failure_of(end));
   write_file(folder.result(run), write_json(result) + "\n");
   std::error_code error;
   fs::remove_all(folder.work() + "/" + run.key, error);
@@ -169,12 +178,12 @@ std::vector<Refusal> make_groups(const Sweep& sweep, const std::vector<Group>& g
       },
       [&](std::size_t i, const ChildEnd& end) {
         constexpr int bad_input = 2;
-        const bool refused = end.code == bad_input;
+        const bool refused = end.code == bad_input, again = (refused || broke(end)) && groups[i].size() > 1;
         for (const SweepRun* run : groups[i]) {
-          if (!refused) keep(sweep, folder, *run, end);
-          if (refused && groups[i].size() > 1) singles.push_back({run});
+          if (again) singles.push_back({run});
+          if (!again && !refused) keep(sweep, folder, *run, end);
         }
-        if (refused && groups[i].size() > 1) return;
+        if (again) return;
         if (refused) refusals.push_back({groups[i].front(), without_place(end.last_line, folder.work())});
         made(groups[i].size());
       });

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -150,6 +151,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   stream_ = own_stream;
   output_ = own_output;
   timer_ = ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  const int no_timer = errno;
   ::fcntl(stream_, F_SETFL, O_NONBLOCK);
   // A whole scan goes through in few turns; the system may allow less.
   constexpr int scan_bytes = 4 << 20;
@@ -159,6 +161,7 @@ Child::Child(const std::vector<std::string>& command, const std::string& folder,
   std::vector<std::string> marked = variables;
   marked.push_back(mark_);
   try {
+    if (timer_ < 0) throw EnvironmentError("no deadline of a process can be set: " + error_text(no_timer));
     pid_ = spawn({command, folder, environment_with(marked), its_output, its_stream, inherited});
   } catch (...) {
     for (const int descriptor : {its_stream, its_output}) ::close(descriptor);
@@ -198,10 +201,13 @@ void Child::kill_all() const {
 
 void Child::set_deadline(double seconds) {
   deadline_s_ = seconds;
+  constexpr std::int64_t second_ns = 1'000'000'000;
+  const std::int64_t ns = std::max<std::int64_t>(1, std::llround(1e9 * seconds));  // 0 would stop the timer
   itimerspec time{};
-  time.it_value.tv_sec = static_cast<time_t>(seconds);
-  time.it_value.tv_nsec = static_cast<long>(1e9 * (seconds - std::floor(seconds))) + 1;
-  ::timerfd_settime(timer_, 0, &time, nullptr);
+  time.it_value.tv_sec = ns / second_ns;
+  time.it_value.tv_nsec = ns % second_ns;
+  if (::timerfd_settime(timer_, 0, &time, nullptr) != 0)
+    throw EnvironmentError("no deadline of a process can be set: " + error_text(errno));
 }
 
 void Child::send(const void* bytes, std::size_t size) {
@@ -231,11 +237,7 @@ void Child::receive(void* bytes, std::size_t size) {
     } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
       const Ready ready = wait_for(POLLIN);
       if (ready == Ready::ended) fail_as_it_ended();
-      if (ready == Ready::over) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%g s", deadline_s_);
-        throw ProcessFailure("gave no answer within " + std::string(text));
-      }
+      if (ready == Ready::over) fail_as_late();
     } else {
       fail_as_it_ended();
     }
@@ -272,13 +274,24 @@ void Child::read_printed() {
   }
 }
 
+bool Child::time_is_over() const {
+  if (go_on_) go_on_();
+  pollfd timer{timer_, POLLIN, 0};
+  return ::poll(&timer, 1, 0) > 0;
+}
+
+// It may write for as long as it is read.
 bool Child::close_and_wait() {
   ::shutdown(stream_, SHUT_WR);
-  char byte = 0;
+  std::array<char, 65536> passed_over;
   for (;;) {
-    const ssize_t got = ::recv(stream_, &byte, 1, 0);
+    const ssize_t got = ::recv(stream_, passed_over.data(), passed_over.size(), 0);
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
-    if (got > 0) continue;
+    if (got > 0) {
+      sent_more_ = true;
+      if (time_is_over()) return false;
+      continue;
+    }
     const Ready ready = wait_for(POLLIN);
     if (ready == Ready::over) return false;
     if (ready == Ready::ended) break;
@@ -300,6 +313,16 @@ bool Child::reap() {
 }
 
 double Child::cpu_ms() const { return ended_ ? 0.0 : 1e3 * process_cpu_s(pid_); }
+
+void Child::check_time() const {
+  if (time_is_over()) fail_as_late();
+}
+
+void Child::fail_as_late() const {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", deadline_s_);
+  throw ProcessFailure("gave no answer within " + std::string(text));
+}
 
 void Child::fail_as_it_ended() {
   const std::string how = how_it_ended();

@@ -36,13 +36,18 @@ class Child {
   Child& operator=(const Child&) = delete;
   Child& operator=(Child&&) = delete;
 
-  /// From now on send() and receive() together may take this long by the wall clock.
+  /// From now on send() and receive() together may take this long by the wall clock. Throws EnvironmentError.
   void set_deadline(double seconds);
   /// All bytes, or ProcessFailure: the process ended, or the time is over.
   void send(const void* bytes, std::size_t size);
   void receive(void* bytes, std::size_t size);
-  /// Closes the stream and waits for the process until the deadline; whether it ended by itself, with 0.
+  /// ProcessFailure where the time is over: between messages of one that may send them without end.
+  void check_time() const;
+  /// Closes the stream, passes over what still comes, and waits for the process until the deadline; whether it ended by
+  /// itself, with 0.
   [[nodiscard]] bool close_and_wait();
+  /// Whether anything came that close_and_wait() passed over.
+  [[nodiscard]] bool sent_more() const { return sent_more_; }
   [[nodiscard]] bool ended() const { return ended_; }
   /// "exited with 7", a clause; of one that has closed the stream, after a moment for it to end.
   [[nodiscard]] std::string how_it_ended();
@@ -57,8 +62,10 @@ class Child {
   [[nodiscard]] Ready wait_for(short events);
   /// Whether the process has ended; takes its status the first time.
   bool reap();
+  [[nodiscard]] bool time_is_over() const;
   void read_printed();
   void kill_all() const;
+  [[noreturn]] void fail_as_late() const;
   [[noreturn]] void fail_as_it_ended();
 
   std::string mark_;                ///< in the environment of all that it starts
@@ -66,7 +73,7 @@ class Child {
   pid_t pid_ = -1;
   int stream_ = -1, output_ = -1, timer_ = -1;
   double deadline_s_ = 0.0;
-  bool ended_ = false;
+  bool ended_ = false, sent_more_ = false;
   int status_ = 0;
   std::string printed_;  ///< the last of it
   std::function<void(std::string_view)> on_printed_;

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string_view>
 
+#include "bim/digest/digest.h"
 #include "slam/io/stopwatch.h"
 #include "slam/process/child.h"
 #include "slam/process/trial_walk.h"
@@ -31,6 +36,7 @@ std::string format(const char* pattern, double a, double b = 0.0) {
 /// What a process answered to a walk.
 struct Trial {
   std::vector<Output> outputs;
+  std::vector<std::uint64_t> answers;  ///< digests of all bytes: one a scan, then of the estimate
   std::vector<double> wall_ms;
   Estimate estimate;
   double start_s = 0.0;
@@ -56,9 +62,13 @@ void give(Method& method, const TrialStep& step, bool lidar_alone, Trial& trial)
   trial.wall_ms.push_back(1e3 * (wall_s() - before_s));
 }
 
-Trial try_on(const ProcessCommand& command, const TrialWalk& walk, const MethodInput& input,
+Trial try_on(ProcessCommand command, const TrialWalk& walk, const MethodInput& input,
              const std::function<void()>& go_on) {
   Trial trial;
+  command.answered = [&](std::span<const std::byte> bytes) {
+    trial.answers.push_back(
+        Digest().add(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())).value());
+  };
   try {
     const double before_s = wall_s();
     const std::unique_ptr<Method> method = make_process_method(command, input);
@@ -76,13 +86,6 @@ Trial try_on(const ProcessCommand& command, const TrialWalk& walk, const MethodI
 }
 
 bool same(const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); }
-
-bool same(const Output& a, const Output& b) {
-  if (a.state != b.state || a.X_FR.has_value() != b.X_FR.has_value()) return false;
-  if (a.X_FR && !same(*a.X_FR, *b.X_FR)) return false;
-  return std::equal(a.hypotheses.begin(), a.hypotheses.end(), b.hypotheses.begin(), b.hypotheses.end(),
-                    [](const Hypothesis& x, const Hypothesis& y) { return x.mass == y.mass && same(x.X_WR, y.X_WR); });
-}
 
 /// Root mean square distance of what f makes of the answers from where `truth` has the robot.
 double misfit(const std::vector<StampedPose>& answered, bool aligned, const std::function<Pose(const Pose&)>& f,
@@ -177,6 +180,23 @@ void report_poses(const Trial& trial, const Pose& X_RL, bool localization, const
                   rms)});
 }
 
+/// Of two trials of the same records, of which the first went to the end.
+void report_repetition(const Trial& first, const Trial& second, const Findings& found) {
+  const auto [one, other] =
+      std::mismatch(first.answers.begin(), first.answers.end(), second.answers.begin(), second.answers.end());
+  const auto scan = static_cast<std::size_t>(one - first.answers.begin()) + 1;
+  if (!second.failure.empty())
+    found({Kind::wrong, "the second time: " + second.failure});
+  else if (one != first.answers.end() || other != second.answers.end())
+    found({Kind::note,
+           "does not repeat: the same records gave another " +
+               (scan > first.outputs.size() ? "estimate at the end" : "answer at scan " + std::to_string(scan)) +
+               "; replay and repeat: true will say so. Threads, clocks and seeds are the usual "
+               "causes"});
+  else
+    found({Kind::fine, "repeats to the last bit"});
+}
+
 /// Of a trial without a plan, what a localization would do.
 void report_missing_plan(const Trial& trial, const Findings& found) {
   const bool several = std::any_of(trial.outputs.begin(), trial.outputs.end(),
@@ -253,18 +273,7 @@ void check_conformance(ProcessCommand command, const std::shared_ptr<const bim::
   ProcessCommand quiet = command;
   quiet.printed = {};
   const Trial second = try_on(quiet, walk, input_of(walk, plan, false), go_on);
-  const auto [one, other] =
-      std::mismatch(first.outputs.begin(), first.outputs.end(), second.outputs.begin(), second.outputs.end(),
-                    [](const Output& a, const Output& b) { return same(a, b); });
-  if (!second.failure.empty())
-    found({Kind::wrong, "the second time: " + second.failure});
-  else if (one != first.outputs.end() || other != second.outputs.end())
-    found({Kind::note, "does not repeat: the same records gave another answer at scan " +
-                           std::to_string(one - first.outputs.begin() + 1) +
-                           "; replay and repeat: true will say so. Threads, clocks and seeds are the usual "
-                           "causes"});
-  else
-    found({Kind::fine, "repeats to the last bit"});
+  report_repetition(first, second, found);
 
   report_poor(try_on(quiet, without_returns(walk), input_of(walk, plan, true), go_on), found);
 }

@@ -77,7 +77,10 @@ class Conversation {
   void end() {
     constexpr double strict_s = 5.0;
     child_.set_deadline(command_.strict ? strict_s : command_.finish_s);
-    if (child_.close_and_wait() || !command_.strict) return;
+    const bool well = child_.close_and_wait();
+    if (!command_.strict) return;
+    if (child_.sent_more()) throw ProcessFailure("sends more after its estimate, which nobody reads");
+    if (well) return;
     if (child_.ended()) throw ProcessFailure(child_.how_it_ended() + " after its last answer, where 0 is due");
     throw ProcessFailure(
         "did not end within 5 s of its last answer, or what it started did not; end when the connection is closed");
@@ -89,11 +92,14 @@ class Conversation {
     child_.send(payload, head.size);
   }
 
-  /// Lines for the log are passed over.
+  /// Lines for the log are passed over, as long as there is time.
   [[nodiscard]] Bytes receive(wire::Type wanted) {
     for (;;) {
       Message message = receive_one();
-      if (message.type == wire::Type::log) continue;
+      if (message.type == wire::Type::log) {
+        child_.check_time();
+        continue;
+      }
       if (message.type == wire::Type::fail)
         throw ProcessFailure("gave up: " + shortened(utf8_of_bytes(text_of(message.payload)), longest_reason));
       if (message.type == wanted) return std::move(message.payload);
@@ -151,6 +157,7 @@ class ProcessMethod final : public Method {
     with_context(when, [&] {
       const double before_ms = first_->cpu_ms();
       const Bytes answer = ask_step(*first_, scan);
+      if (command_.answered) command_.answered(answer);
       output = read_output(answer, scan.stamp, command_.needs_plan);
       output.times.push_back({"process", std::max(0.0, first_->cpu_ms() - before_ms)});
       if (second_ && ask_step(*second_, scan) != answer)
@@ -165,6 +172,7 @@ class ProcessMethod final : public Method {
     Estimate estimate;
     with_context("at the end", [&] {
       const Bytes answer = first_->ask_finish();
+      if (command_.answered) command_.answered(answer);
       estimate = read_estimate(answer, command_.needs_plan, command_.strict);
       if (second_ && second_->ask_finish() != answer)
         throw ProcessFailure("does not repeat: a second process gives another estimate");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +26,8 @@ struct ProcessCommand {
   bool strict =
       false;  ///< as conformance is: it must end with 0 within 5 s of its last answer, and send nothing reserved
   std::function<void(std::string_view)> printed = {};  ///< gets what it prints, as it comes
+  /// Gets each answer, to a scan or at the end, byte for byte; of `repeat`, those of the first process.
+  std::function<void(std::span<const std::byte>)> answered = {};
   std::function<void()> go_on = {};  ///< called while it is waited for; what it throws ends that, and the process
 };
 

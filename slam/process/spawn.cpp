@@ -49,7 +49,13 @@ class Descriptor {
   int fd_;
 };
 
-int spare_copy(int fd) { return fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, lowest_spare); }
+/// -1 of -1.
+int spare_copy(int fd) {
+  const int copy = fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, lowest_spare);
+  if (fd >= 0 && copy < 0)
+    throw EnvironmentError(std::string("a process cannot be given its descriptors: ") + std::strerror(errno));
+  return copy;
+}
 
 std::vector<char*> pointers(const std::vector<std::string>& words) {
   std::vector<char*> all;

@@ -44,6 +44,11 @@ void send(wire::Type type, const void* bytes, std::size_t size) { send(type, byt
   for (;;) ::pause();
 }
 
+/// Until nobody reads it any more.
+void send_without_end(const std::vector<char>& bytes) {
+  while (::send(stream, bytes.data(), bytes.size(), MSG_NOSIGNAL) > 0) continue;
+}
+
 wire::Output good(std::int64_t stamp_ns) {
   wire::Output output;
   output.stamp_ns = stamp_ns;
@@ -117,10 +122,25 @@ bool misbehave(const std::string& how, wire::Output& output) {
   if (how == "state") output.state = 9;
   if (how == "hypotheses") output.hypotheses = 1;
   if (how == "otherwise") output.X_FR.t[0] = static_cast<double>(::getpid());
+  if (how == "particle_otherwise") {
+    output.particles = 1;
+    struct {
+      wire::Output output;
+      wire::Particle particle;
+    } const both{output, {0.0F, 0.0F, 0.0F, static_cast<float>(::getpid())}};
+    static_assert(sizeof both == sizeof(wire::Output) + sizeof(wire::Particle));
+    send(wire::Type::output, &both, sizeof both);
+  }
   if (how == "twice") send(wire::Type::output, &output, sizeof output);
   if (how == "floods")
     for (int i = 0; i < 20000; ++i) std::printf("%s\n", std::string(1000, '.').c_str());
   if (how == "logs") send(wire::Type::log, "a line", 6);
+  if (how == "logs_on") {
+    const wire::Head head{wire::magic, static_cast<std::uint16_t>(wire::Type::log), 0, 0};
+    std::vector<char> lines(1000 * sizeof head);
+    for (std::size_t at = 0; at < lines.size(); at += sizeof head) std::memcpy(&lines[at], &head, sizeof head);
+    send_without_end(lines);
+  }
   return how == "stamp" || how == "nan" || how == "quaternion" || how == "far" || how == "state" ||
          how == "hypotheses" || how == "otherwise" || how == "twice" || how == "floods" || how == "logs" ||
          how.starts_with("finish_");
@@ -160,9 +180,15 @@ int main(int argc, char** argv) {
         break;
       }
       case wire::Type::finish: {
-        const wire::Estimate estimate{0, how == "no_poses" ? 1000ULL : 0ULL, 0};
-        send(wire::Type::estimate, &estimate, sizeof estimate);
+        struct {
+          wire::Estimate estimate;
+          float point[3];
+        } const answer{{0, how == "no_poses" ? 1000ULL : 0ULL, how == "finish_otherwise" ? 1ULL : 0ULL},
+                       {static_cast<float>(::getpid() % 10'000), 0.0F, 0.0F}};
+        send(wire::Type::estimate, &answer,
+             how == "finish_otherwise" ? sizeof(wire::Estimate) + sizeof answer.point : sizeof(wire::Estimate));
         if (how == "finish_stays") hang();
+        if (how == "finish_floods") send_without_end(std::vector<char>(1 << 16));
         if (how == "finish_exits") return 7;
         if (how == "finish_signal") std::raise(SIGSEGV);
         break;

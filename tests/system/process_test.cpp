@@ -18,6 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string python = "/usr/bin/python3";
+
+bool has_numpy() { return std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) == 0; }
+
 class Process : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -64,8 +68,7 @@ TEST_F(Process, VgicpWrappedGivesTheBuiltInsBytes) {
 }
 
 TEST_F(Process, TheBridgeToRos2GivesWhatComesBackFromThere) {
-  const std::string python = "/usr/bin/python3";
-  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  if (!has_numpy()) GTEST_SKIP() << "no numpy for " << python;
   const std::string stub = project_file("tests/processes/ros2_stub/bridge.py");
   const std::string bridge = project_file("slam/process/client/examples/ros2_bridge.py");
   const Outcome outcome = plumbline({"run",
@@ -83,8 +86,7 @@ TEST_F(Process, TheBridgeToRos2GivesWhatComesBackFromThere) {
 }
 
 TEST_F(Process, ThePythonExampleFollowsAndRepeats) {
-  const std::string python = "/usr/bin/python3";
-  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  if (!has_numpy()) GTEST_SKIP() << "no numpy for " << python;
   const std::string icp = project_file("slam/process/client/examples/icp.py");
   const Outcome outcome = plumbline({"run",
                                      scenario("  - {name: icp, command: [" + python + ", " + icp +
@@ -109,8 +111,7 @@ std::string guide_block(const std::string& language) {
 
 // A stranger's path: the guide's script as it stands, on a stand-in with the public KISS-ICP's interface.
 TEST_F(Process, TheGuidesKissIcpConformsAndRuns) {
-  const std::string python = "/usr/bin/python3";
-  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no numpy for " << python;
+  if (!has_numpy()) GTEST_SKIP() << "no numpy for " << python;
   const std::string script = guide_block("python");
   EXPECT_LE(std::count(script.begin(), script.end(), '\n'), 60);
   write_file(folder_ / "my_kiss.py", script);
@@ -132,20 +133,23 @@ TEST_F(Process, TheGuidesKissIcpConformsAndRuns) {
   EXPECT_LT(kiss["ate_aligned_rmse_m"].get<double>(), 0.1);
 }
 
+/// Of plumbline conformance with these words.
+Outcome tried(const std::vector<std::string>& words) {
+  std::vector<std::string> arguments = {"conformance"};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  return plumbline(arguments);
+}
+
+void wrong(const std::vector<std::string>& words, const std::string& said) {
+  const Outcome outcome = tried(words);
+  EXPECT_EQ(outcome.code, 1) << outcome.out;
+  EXPECT_NE(outcome.out.find("WRONG"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
+}
+
 TEST_F(Process, ConformanceSaysWhatIsWrong) {
-  const auto tried = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> arguments = {"conformance"};
-    arguments.insert(arguments.end(), words.begin(), words.end());
-    return plumbline(arguments);
-  };
   const Outcome good = tried({program("process_vgicp")});
   EXPECT_EQ(good.code, 0) << good.out;
-  const auto wrong = [&](const std::vector<std::string>& words, const std::string& said) {
-    const Outcome outcome = tried(words);
-    EXPECT_EQ(outcome.code, 1) << outcome.out;
-    EXPECT_NE(outcome.out.find("WRONG"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
-  };
   for (const std::string name : {"./no_such_program", "no_such_program"}) {
     const Outcome none = tried({name});
     EXPECT_EQ(none.code, 2) << none.out;
@@ -154,7 +158,11 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({program("hostile_process"), "finish_stays"}, "did not end within 5 s of its last answer");
   wrong({program("hostile_process"), "finish_exits"}, "exited with 7 after its last answer");
   wrong({program("hostile_process"), "finish_signal"}, "was ended by signal 11 after its last answer");
+  wrong({program("hostile_process"), "finish_floods"}, "sends more after its estimate, which nobody reads");
   wrong({program("hostile_process"), "good"}, "its pose never changes");
+  wrong({program("hostile_process"), "good"}, "ok    repeats to the last bit");
+  wrong({program("hostile_process"), "particle_otherwise"}, "the same records gave another answer at scan 11; replay");
+  wrong({program("hostile_process"), "finish_otherwise"}, "the same records gave another estimate at the end; replay");
   wrong({"'" + program("hostile_process") + "' nan"}, "at scan 11 (1.1 s): the pose is none");
   wrong({"--scan-s", "0.3", program("hostile_process"), "hang"}, "gave no answer within 0.3 s");
   wrong({program("hostile_process"), "no_json"}, "what is no JSON");
@@ -162,9 +170,10 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   EXPECT_EQ(good.out.find("--plan"), std::string::npos) << good.out;
   for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"--plam", "x"}, {""}, {" "}})
     EXPECT_EQ(tried(words).code, 2);
+}
 
-  const std::string python = "/usr/bin/python3";
-  if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) return;
+TEST_F(Process, ConformanceSaysWhatIsWrongOfOneInPython) {
+  if (!has_numpy()) GTEST_SKIP() << "no numpy for " << python;
   const auto answering = [&](const std::string& answer) {
     write_file(folder_ / "m.py",
                "import numpy as np, plumbline_client\ndef start(recording):\n    return lambda scan: " + answer +
@@ -230,6 +239,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
       {"short", "is shorter than it says"},
       {"long", "8 bytes left where 0 should follow"},
       {"type", "a message of type 131 where 130 is due"},
+      {"logs_on", "gave no answer within 0.5 s"},
       {"drip", "gave no answer within 0.5 s"},
       {"fails", "gave up: no wall in sight"},
       {"fails_at_length", "xxx... (5000000 characters in all)"},
@@ -252,6 +262,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
                         ", good]}\n  - {name: missing, command: [./no_such_program]}\n";
   for (const std::string name : {"floods", "logs"})
     methods += "  - {name: " + name + ", command: [" + program("hostile_process") + ", " + name + "]}\n";
+  methods += "  - {name: finish_floods, command: [" + program("hostile_process") + ", finish_floods], finish_s: 1}\n";
   for (const auto& [how, reason] : reasons)
     methods += "  - {name: " + how + ", command: [" + program("hostile_process") + ", " + how +
                "], scan_s: 0.5, start_s: 0.5, finish_s: 5, repeat: " + (how == "otherwise" ? "true" : "false") + "}\n";
@@ -259,7 +270,7 @@ TEST_F(Process, WhateverItDoesOnlyItselfHasCrashed) {
   EXPECT_EQ(outcome.code, 1) << outcome.err;  // without any gate
   EXPECT_TRUE(fs::exists(folder_ / "run/replay.html"));
   const nlohmann::json results = json(folder_ / "run/results.json")["methods"];
-  for (const std::string name : {"odometry", "good", "floods", "logs"})
+  for (const std::string name : {"odometry", "good", "floods", "logs", "finish_floods"})
     EXPECT_EQ(results[name]["verdict"], "complete") << name;
   const auto crashed = [&](const std::string& name, const std::string& reason) {
     EXPECT_EQ(results[name]["verdict"], "crashed") << name;

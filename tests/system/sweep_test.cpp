@@ -315,6 +315,31 @@ TEST(Sweep, OneMethodThatCannotRunThereLeavesTheOthersOfItsWalk) {
   EXPECT_NE(rows.find("s,plan,,1,s_graph_localization,failed,,,,\"refused: method "), std::string::npos) << rows;
 }
 
+/// A method that kills the program stands for what breaks it; the others of its walk stand, and it is tried no more.
+TEST(Sweep, ARunThatBreaksTheProgramHasFailed) {
+  if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
+  const Folder folder;
+  write_file(folder / "short.plan.yaml", read_file(project_file("tests/system/short.plan.yaml")));
+  write_file(folder / "s.yaml",
+             "scenario: 1\nname: s\nbuilding: short.plan.yaml\nduration_s: 2\nmethods: [odometry]\n");
+  write_file(folder / "kills.sh", "echo once >>'" + (folder / "started") + "'\nkill -ABRT $PPID\nexec sleep 100\n");
+  write_file(folder / "sweep.yaml",
+             "sweep: 1\nscenarios: [s.yaml]\nseeds: 1\nvariants: [{name: good, set: ['methods=[odometry]']}, "
+             "{name: bad, set: ['methods=[{name: kills, command: [/bin/sh, " +
+                 (folder / "kills.sh") + "]}]']}]\n");
+  const auto sweep = [&] { return plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"}); };
+  const Outcome first = sweep();
+  EXPECT_EQ(first.code, 0) << first.err;
+  const std::string rows = read_file(folder / "out/runs.csv");
+  EXPECT_NE(rows.find("s,good,,1,odometry,complete,"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("s,bad,,1,kills,failed,,,,the program died of signal 6"), std::string::npos) << rows;
+  const std::string started = read_file(folder / "started");
+  EXPECT_EQ(started, "once\nonce\n");  // with the other, then for itself
+  EXPECT_EQ(sweep().code, 0);
+  EXPECT_EQ(read_file(folder / "started"), started);
+  EXPECT_EQ(read_file(folder / "out/runs.csv"), rows);
+}
+
 TEST(Sweep, ReplacesNoTablesOfAnother) {
   if (!available()) GTEST_SKIP() << "PLUMBLINE_BINARY and PLUMBLINE_SOURCE are not set; run through ctest";
   const Folder folder;

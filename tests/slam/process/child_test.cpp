@@ -2,6 +2,7 @@
 #include "slam/process/child.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <chrono>
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "bim/config/utf8.h"
+#include "bim/errors.h"
 #include "tests/folder.h"
 
 namespace plumbline::slam {
@@ -40,6 +42,46 @@ TEST(Child, WhatItPrintsWithoutItsStreamDoesNotHoldItUp) {
   child.set_deadline(20.0);
   EXPECT_TRUE(child.close_and_wait());
   EXPECT_TRUE(child.ended());
+}
+
+TEST(Child, WhatItSendsWithoutEndIsReadUntilTheDeadline) {
+  Child child(shell("exec cat /dev/zero >&3"), "", {});
+  child.set_deadline(0.2);
+  EXPECT_FALSE(child.close_and_wait());
+  EXPECT_FALSE(child.ended());
+  EXPECT_TRUE(child.sent_more());
+  Child silent(shell("exit 0"), "", {});
+  silent.set_deadline(20.0);
+  EXPECT_TRUE(silent.close_and_wait());
+  EXPECT_FALSE(silent.sent_more());
+}
+
+TEST(Child, ADeadlineJustBelowASecondCounts) {
+  Child child(shell("sleep 10; exit 7"), "", {});
+  child.set_deadline(0.9999999999);
+  char byte = 0;
+  try {
+    child.receive(&byte, 1);
+    ADD_FAILURE() << "got an answer";
+  } catch (const ProcessFailure& failure) {
+    EXPECT_STREQ(failure.what(), "gave no answer within 1 s");
+  }
+}
+
+TEST(Child, WithoutDescriptorsItIsNotStartedAtAll) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  rlimit few = before;
+  few.rlim_cur = 16;  // enough for the connection, but not for what the child is given
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  std::string said;
+  try {
+    const Child child(shell("exit 0"), "", {});
+  } catch (const EnvironmentError& error) {
+    said = error.what();
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_NE(said.find("a process cannot be given its descriptors"), std::string::npos) << said;
 }
 
 TEST(Child, SaysHowItEnded) {
