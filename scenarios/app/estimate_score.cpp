@@ -55,20 +55,23 @@ struct ReferenceSource {
 
 ReferenceSource reference_source(std::string text) {
   ReferenceSource source;
+  std::string frame;
   const auto take = [&](std::string_view key, std::string& value) {
     const std::size_t at = text.rfind(key);
     if (at == std::string::npos || text.find(',', at + 1) != std::string::npos) return false;
+    if (!value.empty()) throw InputError({"--reference", 0, 0}, "has " + std::string(key.substr(1)) + " twice");
     value = text.substr(at + key.size());
+    if (value.empty()) throw InputError({"--reference", 0, 0}, "has nothing behind " + std::string(key.substr(1)));
     text.resize(at);
     return true;
   };
-  for (std::string frame; take(",topic=", source.topic) || take(",frame=", frame);) {
-    if (frame.empty()) continue;
-    if (frame != "W" && frame != "M")
-      throw InputError({"--reference", 0, 0}, "'frame=" + frame + "' must be W, the plan's frame, or M, any other");
-    source.in_plan_frame = frame == "W";
-    frame.clear();
+  while (take(",topic=", source.topic) || take(",frame=", frame)) {
   }
+  if (!frame.empty() && frame != "W" && frame != "M")
+    throw InputError({"--reference", 0, 0}, "'frame=" + frame + "' must be W, the plan's frame, or M, any other");
+  if (text.empty() && (!frame.empty() || !source.topic.empty()))
+    throw InputError({"--reference", 0, 0}, "names no file");
+  source.in_plan_frame = frame == "W";
   source.file = std::move(text);
   return source;
 }
@@ -217,16 +220,19 @@ void check_names(const std::vector<GateSpec>& gates) {
 struct Covered {
   std::size_t poses = 0, scans = 0;       ///< scans 0: not known
   std::optional<double> reference_share;  ///< of the poses, between the ends of the reference
+  std::optional<double> judged_share;     ///< of the scans, in the plan's frame
 
   /// Why a gate fails whatever its value; empty: enough.
   [[nodiscard]] std::string too_little() const {
     constexpr double least = score::TrajectoryRules().min_coverage;
     if (static_cast<double>(poses) < least * static_cast<double>(scans)) return words_of_poses();
-    return too_little_reference();
-  }
-  [[nodiscard]] std::string too_little_reference() const {
-    constexpr double least = score::TrajectoryRules().min_coverage;
     return reference_share && *reference_share < least ? words_of_reference() : "";
+  }
+  /// The same of a gate on what is judged in the plan's frame.
+  [[nodiscard]] std::string too_little_judged() const {
+    constexpr double least = score::TrajectoryRules().min_coverage;
+    if (!judged_share || *judged_share >= least) return {};
+    return "the reference covers " + std::to_string(std::lround(100.0 * *judged_share)) + " % of the scans";
   }
   [[nodiscard]] std::string words_of_poses() const {
     return std::to_string(poses) + " of " + std::to_string(scans) + " scans have a pose";
@@ -237,7 +243,7 @@ struct Covered {
 };
 
 Covered covered(const Poses& poses, int scans, const Poses& reference) {
-  Covered covered{poses.size(), static_cast<std::size_t>(std::max(scans, 0)), {}};
+  Covered covered{poses.size(), static_cast<std::size_t>(std::max(scans, 0)), {}, {}};
   if (reference.empty() || poses.empty()) return covered;
   // The reference may begin and end between two poses; where a method was silent is no step.
   std::vector<slam::Nanoseconds> steps;
@@ -255,7 +261,7 @@ Covered covered(const Poses& poses, int scans, const Poses& reference) {
 std::string but(const GateSpec& gate, const Covered& causal, const Covered& last) {
   for (const char* name : {"coverage", "lost_share", "degenerate_share", "poses", "final.poses"})
     if (gate.metric == name) return {};
-  if (gate.metric.starts_with("localization.")) return causal.too_little_reference();
+  if (gate.metric.starts_with("localization.")) return causal.too_little_judged();
   return (gate.metric.starts_with("final.") ? last : causal).too_little();
 }
 
@@ -319,7 +325,7 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
                                            : turn_to_robot(method.causal, reference, tree);
   const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
   const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
-  const Covered causal_covered = covered(method.causal, method.scans, reference);
+  Covered causal_covered = covered(method.causal, method.scans, reference);
   const Covered last_covered = covered(method.estimate.trajectory, method.scans, reference);
 
   Tree names = Tree::list();
@@ -339,11 +345,13 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   std::optional<score::Silence> silence;
   if (method.scans > 0 && !positions_alone) silence = score::score_silence(reference, method.causal, method.lost);
   if (silence) tree.set("silence", to_json(*silence));
-  std::optional<score::MethodScore> in_plan_frame;
+  std::optional<PlanFrameScore> in_plan_frame;
   if (source.in_plan_frame) {
     in_plan_frame = score_in_plan_frame(method, reference, positions_alone, reference_file);
-    const Tree scored = score::to_results(*in_plan_frame);
-    tree.set("verdict", in_plan_frame->verdict).set("localization", *scored.find("localization"));
+    causal_covered.judged_share = in_plan_frame->judged_share;
+    const Tree scored = score::to_results(in_plan_frame->score);
+    tree.set("verdict", in_plan_frame->score.verdict).set("judged_share", in_plan_frame->judged_share);
+    tree.set("localization", *scored.find("localization"));
   }
   tree.set("causal", to_json(causal));
   if (last.path.poses > 0) tree.set("final", to_json(last));

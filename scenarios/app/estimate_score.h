@@ -19,7 +19,8 @@ namespace plumbline::scenarios {
 /// into `dir` and prints a table. Throws InputError, also where the two are of different times, and, unless
 /// `unchecked`, where files were altered since they were written. A gate names a value of score.json: as causal has it,
 /// "final.NAME", or one at the top; it fails where that is absent, and where fewer than 95 % of the scans have a pose
-/// or of the poses lie within the reference. Returns the exit code.
+/// or of the poses lie within the reference; of localization.NAME where the reference covers fewer of the scans.
+/// Returns the exit code.
 [[nodiscard]] int score_estimate(const std::string& dir, const std::string& reference,
                                  const std::vector<GateSpec>& gates, bool unchecked);
 

@@ -20,6 +20,7 @@
 #include "slam/io/bags/bag_poses.h"
 #include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
+#include "slam/io/second.h"
 
 namespace plumbline::scenarios {
 
@@ -131,11 +132,10 @@ std::string apply_shift(const Given& given, MethodRecord& method, const Finished
   } else {
     throw InputError(mark(), "'shift=" + given.shift + "' must be auto, or seconds that are added to the stamps");
   }
-  constexpr double latest_ns = 9e18;
   for (slam::StampedPose& pose : poses) {
-    if (std::abs(static_cast<double>(pose.stamp) + static_cast<double>(*shift)) > latest_ns)
+    if (std::abs(pose.stamp + *shift) >= slam::furthest_stamp)  // as both are less, the sum fits
       throw InputError(mark(), "'shift=" + given.shift + "' makes stamps of " + slam::format_stamp(pose.stamp) +
-                                   " s too large; at most 9e9 s");
+                                   " s too large; they are less than 4e9 s");
     pose.stamp += *shift;
   }
   method.shift = *shift;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "bim/errors.h"
@@ -48,6 +49,8 @@ int report_failure() {
     return print_error(std::string("plumbline: ") + error.what(), 128 + error.signal());
   } catch (const EnvironmentError& error) {
     return print_error(error.what(), environment_or_internal);
+  } catch (const std::system_error& error) {  // no thread, no room on a disk
+    return print_error(std::string("plumbline: ") + error.what(), environment_or_internal);
   } catch (const std::exception& error) {
     return print_error(std::string("plumbline: internal error: ") + error.what(), environment_or_internal);
   }

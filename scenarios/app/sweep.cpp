@@ -50,11 +50,13 @@ struct CollectArguments {
   int seeds = 0;
 };
 
-/// What is said of tables that stand in `out`. Throws InputError where runs of it were refused.
+/// What is said of tables that stand in `out`. Throws InputError where runs of it were refused, EnvironmentError
+/// where some broke the program.
 int tell(const SweepTables& tables, const std::string& file, const std::string& out) {
   print(tables.text + "table: " + printable(out) + "/table.html\n");
   for (const std::string& note : tables.notes) print_note("plumbline: warning: " + printable(note));
   if (!tables.refused.empty()) throw InputError({file, 0, 0}, tables.refused);
+  if (!tables.broken.empty()) throw EnvironmentError(file + ": " + tables.broken);
   return 0;
 }
 

@@ -48,6 +48,8 @@ std::vector<std::string> scenario_files(const std::string& folder) {
     if (it->path().extension() != ".yaml" || path.ends_with(".plan.yaml") || !it->is_regular_file(unknown)) continue;
     if (may_be_scenario(path)) paths.push_back(path);
   }
+  if (error && fs::exists(folder, unknown))
+    throw InputError({folder, 0, 0}, "cannot be searched for scenarios: " + error.message());
   std::sort(paths.begin(), paths.end());
   return paths;
 }

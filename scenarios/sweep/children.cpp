@@ -120,7 +120,7 @@ bool is_of_environment(const ChildEnd& end) {
 }
 
 bool broke(const ChildEnd& end) {
-  constexpr std::array<int, 6> own = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP};
+  constexpr std::array<int, 5> own = {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGTRAP};
   if (end.code == environment_failed) return !is_of_environment(end) && !end.last_line.ends_with("std::bad_alloc");
   return std::find(own.begin(), own.end(), end.code - first_signal) != own.end();
 }

@@ -98,7 +98,7 @@ InputError error_of(const Refusal& refusal) {
 std::string failure_of(const ChildEnd& end) {
   constexpr int first_signal = 128;
   if (end.code <= first_signal) return end.last_line;
-  return "the program died of signal " + std::to_string(end.code - first_signal);
+  return std::string(died_mark) + std::to_string(end.code - first_signal);
 }
 
 /// A run that breaks the program would break it again whenever the sweep goes on: it has failed, and the others stand.
@@ -289,7 +289,7 @@ SweepTables write_tables(const Sweep& sweep, const SweepFolder& folder, const st
   std::string below = notes.empty() ? "" : "\n";
   for (const std::string& note : notes) below += printable(note) + "\n";
   write_file(out + "/table.txt", text + below);
-  return {text, std::move(notes), refused_in(rows)};
+  return {text, std::move(notes), refused_in(rows), broken_in(rows)};
 }
 
 /// The result of a run among those of shards; empty where there is none of this input.

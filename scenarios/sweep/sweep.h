@@ -31,6 +31,7 @@ struct SweepTables {
   std::string text;                ///< the table
   std::vector<std::string> notes;  ///< see walk_notes()
   std::string refused;             ///< see refused_in()
+  std::string broken = {};         ///< see broken_in()
 };
 
 /// Makes the results that are not there yet, those of one walk in a child process, then the tables from all of them. A

@@ -268,6 +268,18 @@ std::string refused_in(const std::vector<SweepRow>& rows) {
   return std::to_string(refused.size()) + " of " + std::to_string(keys.size()) + " runs cannot be made; " + first;
 }
 
+std::string broken_in(const std::vector<SweepRow>& rows) {
+  std::set<std::string> keys, broken;
+  std::string first;
+  for (const SweepRow& row : rows) {
+    keys.insert(row.key);
+    const bool broke = row.failure.starts_with(died_mark) || row.failure.starts_with(internal_error_mark);
+    if (broke && broken.insert(row.key).second && first.empty()) first = row.key + ": " + row.failure;
+  }
+  if (broken.empty()) return "";
+  return std::to_string(broken.size()) + " of " + std::to_string(keys.size()) + " runs broke the program; " + first;
+}
+
 std::optional<double> error_of(const SweepRow& row) {
   static const std::size_t ape = metric_index("localization.ape_rmse_m");
   static const std::size_t ate = metric_index("ate_aligned_rmse_m");

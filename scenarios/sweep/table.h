@@ -32,6 +32,9 @@ struct SweepRow {
 
 /// Begins the failure of a run whose scenario is no input that can be run.
 inline constexpr std::string_view refused_mark = "refused: ";
+/// Begin the failure of a run that broke the program.
+inline constexpr std::string_view died_mark = "the program died of signal ";
+inline constexpr std::string_view internal_error_mark = "plumbline: internal error";
 
 /// Of the walks that failed, were cut short or have other warnings: a line for each scenario, variant and start, with
 /// the first reason.
@@ -41,6 +44,8 @@ inline constexpr std::string_view refused_mark = "refused: ";
 [[nodiscard]] std::string walks_title(const SweepRow& row);
 /// How many runs were refused and why the first was; empty where none was.
 [[nodiscard]] std::string refused_in(const std::vector<SweepRow>& rows);
+/// The same of runs that broke the program.
+[[nodiscard]] std::string broken_in(const std::vector<SweepRow>& rows);
 
 /// Of the position, m: APE of a localization, aligned ATE of SLAM.
 [[nodiscard]] std::optional<double> error_of(const SweepRow& row);

@@ -2,6 +2,7 @@
 #include "slam/plan_method/watched_odometry.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace plumbline::slam {
@@ -66,6 +67,7 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
   if (!recent_.empty() && recent_.back().scan.stamp < scan.stamp) {
     const Nanoseconds before = recent_.back().scan.stamp;
     last_steps_.push_back({motion.at(before).inverse() * X_BR, scan.stamp - before});
+    if (is_after_gap()) slip_.reset();
     if (slip_ || is_last_step_unexpected()) undo_slip(scan, result);
     if (result.deskewed) X_OB_ = join_frames(result.X_OR, X_BR);
     if (by_scans_) return result;
@@ -81,7 +83,12 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
   return result;
 }
 
+bool WatchedOdometry::is_after_gap() const {
+  return last_steps_.size() > 1 && last_steps_.back().dt > 2 * std::prev(last_steps_.end(), 2)->dt;
+}
+
 bool WatchedOdometry::is_last_step_unexpected() const {
+  if (is_after_gap()) return false;  // so far ahead nothing is expected
   // On walks that slip by 0.2 to 0.4 m, at 2 to 10 Hz, nothing but slips and sudden stops exceeds them.
   constexpr double sigmas = 2.5, least_mps = 0.3;
   const Step& last = last_steps_.back();

@@ -57,6 +57,8 @@ class WatchedOdometry {
   [[nodiscard]] bool contradicts_scans(const Scan& scan, const Pose& X_OR);
   /// Whether odometry stands, or goes while the view stays as it was: scan matching is worth its time.
   [[nodiscard]] bool is_suspect(const Pose& X_OR);
+  /// Whether scans paused before the last one.
+  [[nodiscard]] bool is_after_gap() const;
   /// Whether odometry's step to this scan is not the one that the steps before let expect.
   [[nodiscard]] bool is_last_step_unexpected() const;
   /// Puts a scan's pose where scan matching finds it, if that shows that the robot did not go where odometry's last

@@ -81,6 +81,23 @@ TEST_F(PlanFrameScore, AReferenceOfPositionsAloneJudgesNoHeading) {
   EXPECT_FALSE(scores()["localization"].contains("yaw_rmse_deg"));
 }
 
+// As of a total station that loses sight of the robot: what lies between is not known.
+TEST_F(PlanFrameScore, WhereTheReferencePausesNothingIsJudged) {
+  std::vector<slam::StampedPose> poses = slam::read_tum(read_file(truth()), truth());
+  std::erase_if(poses, [](const slam::StampedPose& pose) {
+    return slam::seconds(pose.stamp) > 5.0 && slam::seconds(pose.stamp) < 10.0;
+  });
+  write_file(*folder_ / "paused.tum", slam::write_tum(poses));
+  const std::string paused = *folder_ / "paused.tum,frame=W";
+  ASSERT_EQ(score(paused).code, 0);
+  EXPECT_NEAR(scores()["judged_share"], 0.58, 0.03);
+  EXPECT_EQ(scores()["verdict"], "success");
+  EXPECT_LT(scores()["localization"]["ape_rmse_m"], 0.1);
+  const Outcome gate = score(paused, {"--gate", "localization.ape_rmse_m<=0.1"});
+  EXPECT_EQ(gate.code, 1);
+  EXPECT_NE(gate.out.find("the reference covers 58 % of the scans"), std::string::npos) << gate.out;
+}
+
 // It converges after more than a twentieth of the scans, so that a gate on the aligned error fails whatever that is.
 TEST_F(PlanFrameScore, GatesAskForIt) {
   const std::string in_plan = truth() + ",frame=W";
@@ -99,6 +116,8 @@ TEST_F(PlanFrameScore, RefusesWhatItCannotBe) {
   const Outcome frame = score(truth() + ",frame=map");
   EXPECT_EQ(frame.code, 2);
   EXPECT_NE(frame.err.find("'frame=map' must be W, the plan's frame, or M"), std::string::npos) << frame.err;
+  for (const char* text : {",frame=W", ",topic=/x", "t.tum,frame=", "t.tum,frame=W,frame=M"})
+    EXPECT_EQ(score(text).code, 2) << text;
   const Outcome later = score(changed([](slam::StampedPose& pose) { pose.stamp += 1'000'000'000'000; }) + ",frame=W");
   EXPECT_EQ(later.code, 2) << later.out;
 }

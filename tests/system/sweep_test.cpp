@@ -329,13 +329,15 @@ TEST(Sweep, ARunThatBreaksTheProgramHasFailed) {
                  (folder / "kills.sh") + "]}]']}]\n");
   const auto sweep = [&] { return plumbline({"sweep", folder / "sweep.yaml", "-o", folder / "out"}); };
   const Outcome first = sweep();
-  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.code, 3) << first.out;
+  EXPECT_NE(first.err.find("1 of 2 runs broke the program; s-bad-1: the program died of signal 6"), std::string::npos)
+      << first.err;
   const std::string rows = read_file(folder / "out/runs.csv");
   EXPECT_NE(rows.find("s,good,,1,odometry,complete,"), std::string::npos) << rows;
   EXPECT_NE(rows.find("s,bad,,1,kills,failed,,,,the program died of signal 6"), std::string::npos) << rows;
   const std::string started = read_file(folder / "started");
   EXPECT_EQ(started, "once\nonce\n");  // with the other, then for itself
-  EXPECT_EQ(sweep().code, 0);
+  EXPECT_EQ(sweep().code, 3);
   EXPECT_EQ(read_file(folder / "started"), started);
   EXPECT_EQ(read_file(folder / "out/runs.csv"), rows);
 }

@@ -296,8 +296,8 @@ FramedCloud read_livox(std::span<const std::uint8_t> bytes, Encoding encoding) {
   FramedCloud out;
   PointCloud& cloud = out.cloud;
   const Nanoseconds stamp = in.header(out.frame);
-  cloud.stamp = static_cast<Nanoseconds>(in.number<std::uint64_t>());
-  if (cloud.stamp < 0 || cloud.stamp >= furthest_stamp) throw InputError({}, "a time base that is no time");
+  const auto base = in.number<std::uint64_t>();
+  cloud.stamp = base < static_cast<std::uint64_t>(furthest_stamp) ? static_cast<Nanoseconds>(base) : 0;
   // A time base of 0, or of the LiDAR's own clock, is not that of the other topics.
   if (cloud.stamp == 0 || (stamp != 0 && std::abs(cloud.stamp - stamp) > second_ns)) cloud.stamp = stamp;
   const auto points = in.number<std::uint32_t>();

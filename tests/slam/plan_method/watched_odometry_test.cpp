@@ -171,6 +171,39 @@ TEST(WatchedOdometry, ScansUndoASlip) {
   }
 }
 
+// Odometry of few records is extrapolated to a scan, also to one at which a slip is undone.
+TEST(WatchedOdometry, ScansUndoASlipOfOdometryThatIsExtrapolated) {
+  for (const double at_s : {6.0, 6.02, 6.04, 6.06, 6.08, 6.1, 6.12}) {
+    const Driver all = slipping({at_s}, {0.2, 0.0, 0.0});
+    Nanoseconds next = 0;
+    const Followed walked = follow([&](const Odometry& record, MotionBuffer& motion) {
+      if (record.stamp < next) return;
+      next = record.stamp + 130'000'000;
+      all(record, motion);
+    });
+    EXPECT_LT(walked.last_m, 0.05 + 0.02) << at_s;  // what registration may err by, and what it drifted
+  }
+}
+
+// Odometry tells the way over a pause of the scans.
+TEST(WatchedOdometry, APauseOfTheScansIsNoSlip) {
+  synthetic::WalkConfig walk;
+  walk.duration_s = 20.0;
+  walk.speed_mps = 1.2;
+  walk.vibration = 0.3;
+  const synthetic::Recording recording =
+      synthetic::walk(synthetic::corridor_house(), synthetic::corridor_house_walk(), walk);
+  WatchedOdometry watched(recording.calibration);
+  MotionBuffer motion;
+  for (const Odometry& record : recording.odometry) motion.add(record);
+  for (const Scan& scan : recording.scans) {
+    const double t = seconds(scan.stamp);
+    if ((t > 4.0 && t < 4.8) || (t > 7.0 && t < 8.5) || (t > 11.0 && t < 14.0)) continue;
+    const WatchedOdometry::Tracked tracked = watched.track(scan, motion, 0);
+    EXPECT_EQ(tracked.X_OR.t, motion.at(scan.stamp).t) << t;
+  }
+}
+
 // Blind scans do not show which of both it is.
 TEST(WatchedOdometry, WithoutScansASlipIsOdometrys) {
   EXPECT_TRUE(follow(slipping({6.0}, {0.2, 0, 0}), 5.0).as_odometry);
