@@ -136,15 +136,12 @@ TEST(Cdr, LivoxMessagesAreClouds) {
   EXPECT_EQ(scan.offset_ns[0], -39'600'000);
   EXPECT_EQ(scan.point_L[99], Eigen::Vector3d(3.0, 0.0, static_cast<double>(0.013F * 99.0F)));
   EXPECT_EQ(scan.reflectivity[1], 200.0F);
-  for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{90'000'000'000}}) {
+  for (const std::uint64_t base :
+       {std::uint64_t{0}, std::uint64_t{90'000'000'000}, std::uint64_t{4'000'000'000'000'000'000},
+        ~std::uint64_t{0} / 2, ~std::uint64_t{0}}) {
     std::vector<std::uint8_t> other_clock = m;
     std::memcpy(&other_clock[4 + 8 + 4 + 12], &base, sizeof base);
-    EXPECT_EQ(ros::read_livox(other_clock, Encoding::cdr).cloud.stamp, 1'000'000'000) << "of the header";
-  }
-  for (const std::uint64_t base : {std::uint64_t{4'000'000'000'000'000'000}, ~std::uint64_t{0} / 2}) {
-    std::vector<std::uint8_t> no_time = m;
-    std::memcpy(&no_time[4 + 8 + 4 + 12], &base, sizeof base);
-    EXPECT_THROW((void)ros::read_livox(no_time, Encoding::cdr), InputError) << base;
+    EXPECT_EQ(ros::read_livox(other_clock, Encoding::cdr).cloud.stamp, 1'000'000'000) << base << ", of the header";
   }
   // Two more points than said before.
   const std::uint32_t other = points + 2;
