@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
+#include "bim/config/nested_tree.h"
 #include "bim/config/tree.h"
 
 namespace plumbline {
@@ -40,9 +39,7 @@ class TreeReader : public nlohmann::json::json_sax_t {
   bool start_array(std::size_t) override { return open(Tree::list()); }
   bool end_array() override { return close(); }
   bool key(std::string& value) override {
-    if (!stack_.back().keys.insert(value).second)
-      throw InputError(mark_, "duplicate key '" + value + "'; each key may stand once");
-    stack_.back().key = std::move(value);
+    nested_.set_key(mark_, std::move(value));
     return true;
   }
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& error) override {
@@ -56,47 +53,30 @@ class TreeReader : public nlohmann::json::json_sax_t {
     throw InputError(mark, "no valid JSON");
   }
 
-  Tree root;
+  [[nodiscard]] Tree take() { return nested_.take(); }
 
  private:
-  struct Level {
-    Tree tree;
-    std::set<std::string> keys;  ///< so far, of a map
-    std::string key;
-  };
-
-  void check_depth() const {
-    if (stack_.size() > max_depth) throw InputError(mark_, "nested deeper than 64 levels");
+  [[nodiscard]] Tree checked(Tree tree) const {
+    if (nested_.depth() > max_depth) throw InputError(mark_, "nested deeper than 64 levels");
+    tree.mark = mark_;
+    return tree;
   }
-
   bool open(Tree tree) {
-    check_depth();
-    stack_.push_back({std::move(tree), {}, {}});
+    nested_.open(checked(std::move(tree)));
     return true;
   }
-
   bool close() {
-    Tree done = std::move(stack_.back().tree);
-    stack_.pop_back();
-    return add(std::move(done));
+    nested_.close();
+    return true;
   }
-
   bool add(Tree tree) {
-    check_depth();
-    tree.mark = mark_;
-    if (stack_.empty()) {
-      root = std::move(tree);
-    } else if (Level& level = stack_.back(); level.tree.is_list()) {
-      level.tree.push(std::move(tree));
-    } else {
-      std::get<Tree::Map>(level.tree.value).emplace_back(std::move(level.key), std::move(tree));
-    }
+    nested_.add(checked(std::move(tree)));
     return true;
   }
 
   std::string_view text_;
   Mark mark_;
-  std::vector<Level> stack_;
+  NestedTree nested_;
 };
 
 std::string quoted(const std::string& text) {
@@ -174,7 +154,7 @@ Tree read_json(std::string_view text, const std::string& file) {
   } catch (const nlohmann::json::exception& error) {
     throw InputError({file, 0, 0}, std::string("no valid JSON: ") + error.what());
   }
-  return std::move(reader.root);
+  return reader.take();
 }
 
 std::string write_json(const Tree& tree, int indent) {

@@ -3,9 +3,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
+#include "bim/config/nested_tree.h"
 #include "bim/config/tree.h"
 #include "bim/config/utf8.h"
 
@@ -35,78 +35,42 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(at(Tree(), mark)); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { nested_.add(at(Tree(), mark)); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     throw InputError(place(mark), "aliases (*name) are not supported; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& text) override {
-    if (!stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key)
-      set_key(mark, text);
+    if (nested_.wants_key())
+      nested_.set_key(place(mark), text);
     else
-      add(at(Tree(text), mark));
+      nested_.add(at(Tree(text), mark));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     open(at(Tree::list(), mark), mark);
   }
-  void OnSequenceEnd() override { close(); }
+  void OnSequenceEnd() override { nested_.close(); }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     open(at(Tree::map(), mark), mark);
   }
-  void OnMapEnd() override { close(); }
+  void OnMapEnd() override { nested_.close(); }
 
   [[nodiscard]] Mark place(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
-  Tree root;
+  [[nodiscard]] Tree take() { return nested_.take(); }
 
  private:
-  struct Level {
-    Tree tree;
-    std::set<std::string> keys;  ///< so far, of a map
-    std::string key;
-    bool has_key = false;
-  };
-
   Tree at(Tree tree, const YAML::Mark& mark) const {
     tree.mark = place(mark);
     return tree;
   }
 
-  void set_key(const YAML::Mark& mark, const std::string& key) {
-    if (!stack_.back().keys.insert(key).second)
-      throw InputError(place(mark), "duplicate key '" + key + "'; each key may stand once");
-    stack_.back().key = key;
-    stack_.back().has_key = true;
-  }
-
   void open(Tree tree, const YAML::Mark& mark) {
-    const bool as_key = !stack_.empty() && stack_.back().tree.is_map() && !stack_.back().has_key;
-    if (as_key) throw InputError(place(mark), "a list or map cannot be a key");
-    if (stack_.size() >= max_depth) throw InputError(place(mark), "nested deeper than 64 levels");
-    stack_.push_back({std::move(tree), {}, {}, false});
-  }
-
-  void close() {
-    Tree done = std::move(stack_.back().tree);
-    stack_.pop_back();
-    add(std::move(done));
-  }
-
-  void add(Tree tree) {
-    if (stack_.empty()) {
-      root = std::move(tree);
-      return;
-    }
-    Level& level = stack_.back();
-    if (level.tree.is_list()) {
-      level.tree.push(std::move(tree));
-      return;
-    }
-    if (!level.has_key) throw InputError(tree.mark, "a key is missing");
-    std::get<Tree::Map>(level.tree.value).emplace_back(std::move(level.key), std::move(tree));
-    level.has_key = false;
+    if (nested_.wants_key()) throw InputError(place(mark), "a list or map cannot be a key");
+    if (nested_.depth() >= max_depth) throw InputError(place(mark), "nested deeper than 64 levels");
+    nested_.open(std::move(tree));
   }
 
   std::string file_;
-  std::vector<Level> stack_;
+  NestedTree nested_;
 };
 
 bool needs_quotes(const std::string& text) {
@@ -185,7 +149,7 @@ Tree read_yaml(std::string_view text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     throw InputError(builder.place(error.mark), "no valid YAML: " + error.msg);
   }
-  return std::move(builder.root);
+  return builder.take();
 }
 
 std::string write_yaml(const Tree& tree) {

@@ -23,13 +23,4 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
 [[nodiscard]] std::string write_beliefs(const std::vector<BeliefRecord>& beliefs);
 [[nodiscard]] std::vector<BeliefRecord> read_beliefs(std::string_view text, const std::string& file);
 
-/// Poses as read back from a trajectory file: quaternions of norm 1, no negative zeros.
-void round_as_written(std::vector<slam::StampedPose>& poses);
-/// A record as read back from the files of its method: walls and particles rounded, without the graph. Throws
-/// InternalError on what those files cannot hold: a value that is not finite.
-void round_as_written(MethodRecord& method);
-/// Throws InternalError where round_as_written() would of a record with it, or its graph cannot be written.
-void check_finite(const BeliefRecord& belief);
-void check_finite(const slam::Estimate& estimate);
-
 }  // namespace plumbline::scenarios

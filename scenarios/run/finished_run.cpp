@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/as_written.h"
 #include "scenarios/run/run_files.h"
 
 namespace plumbline::scenarios {

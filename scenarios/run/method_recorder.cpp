@@ -8,7 +8,7 @@
 #include "bim/config/utf8.h"
 #include "bim/digest/digest.h"
 #include "bim/errors.h"
-#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/as_written.h"
 #include "slam/io/pose_check.h"
 #include "slam/io/stopwatch.h"
 #include "slam/process/shortened.h"

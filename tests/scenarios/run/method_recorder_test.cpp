@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "scenarios/run/estimate_file.h"
+#include "scenarios/run/as_written.h"
 
 namespace plumbline::scenarios {
 namespace {
