@@ -175,6 +175,23 @@ std::string import(std::string_view bytes, const Format& format, const MeshFileC
   return reader.read(X_Wroot) ? reader.packed() : other_answer(Answer::too_large, {});
 }
 
+std::string answer_of_child(std::string_view bytes, const Format& format, const Mark& mark,
+                            const MeshFileConfig& config) {
+  const SubprocessLimits limits = subprocess_limits(bytes.size(), config.subprocess);
+  SubprocessResult result = run_in_subprocess([&] { return import(bytes, format, config); }, limits);
+  if (result.answer) return *std::move(result.answer);
+  if (result.end == SubprocessEnd::out_of_wall_time)
+    throw EnvironmentError(to_string(mark) + ": reading it took more than " + format_number(limits.wall_s) +
+                           " s, but less than " + std::to_string(limits.cpu_s) +
+                           " s of a processor: this machine is busy; try again when it is less so");
+  if (result.end == SubprocessEnd::out_of_cpu_time)
+    throw InputError(mark, "reading it takes more than " + std::to_string(limits.cpu_s) +
+                               " s of a processor, the most for a file of its size; make it coarser, or write it anew");
+  throw InputError(mark, "this is not a valid " + std::string(format.ending) +
+                             " file: reading it failed, or takes more than " + std::to_string(limits.memory >> 20U) +
+                             " MB of memory");
+}
+
 std::vector<MeshPart> unpacked(Unpacker& unpacker) {
   std::vector<MeshPart> parts(unpacker.count(3 * sizeof(std::uint64_t)));
   for (MeshPart& part : parts) {
@@ -246,17 +263,12 @@ std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string&
   if (bytes.size() > config.most_bytes)
     throw InputError(mark, "larger than " + std::to_string(config.most_bytes >> 20U) + " MB; make it coarser");
   if (format->ending == ".ply") check_ply(bytes, path);
-  const SubprocessLimits subprocess = subprocess_limits(bytes.size(), config.subprocess);
-  const auto answer = run_in_subprocess([&] { return import(bytes, *format, config); }, subprocess);
-  if (!answer)
-    throw InputError(mark, "this is not a valid " + std::string(format->ending) +
-                               " file: reading it failed, or takes " + "more than " + std::to_string(subprocess.cpu_s) +
-                               " s and " + std::to_string(subprocess.memory >> 20U) + " MB");
-  Unpacker unpacker(*answer);
+  const std::string answer = answer_of_child(bytes, *format, mark, config);
+  Unpacker unpacker(answer);
   const auto kind = static_cast<Answer>(unpacker.get());
   if (kind == Answer::refused)
     throw InputError(mark, "this is not a valid " + std::string(format->ending) +
-                               " file: " + reason(answer->substr(sizeof(std::uint64_t))));
+                               " file: " + reason(answer.substr(sizeof(std::uint64_t))));
   if (kind == Answer::too_large)
     throw InputError(mark, "more than " + std::to_string(config.most_triangles) + " triangles or " +
                                std::to_string(config.most_vertices) + " vertices; make it coarser");

@@ -40,7 +40,7 @@ struct MeshPart {
 /// `path` gives its kind and names it in errors. One part a node that has triangles, in the order of the file's tree;
 /// points and lines are left out. glTF and Collada are turned from their y up; the others say nothing of their axes
 /// and come as they stand, in the unit of the file (settle_axes). Throws InputError when it is none, has no triangle or
-/// passes a bound.
+/// passes a bound, EnvironmentError when the machine had no time to read it.
 [[nodiscard]] std::vector<MeshPart> read_mesh_parts(std::string_view bytes, const std::string& path,
                                                     const MeshFileConfig& config = {});
 

@@ -3,14 +3,17 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "bim/errors.h"
 
@@ -28,8 +31,8 @@ namespace {
 
 constexpr char done = '\1';  ///< last byte of a whole answer
 
-void limit(int resource, rlim_t value) {
-  const rlimit both{value, value};
+void limit(int resource, rlim_t soft, rlim_t hard) {
+  const rlimit both{soft, hard};
   (void)::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
@@ -44,11 +47,15 @@ std::uint64_t address_space() {
 }
 
 void bound(const SubprocessLimits& config) {
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, config.cpu_s);
-  (void)::alarm(config.wall_s);  // its default action ends the process
-#ifndef PLUMBLINE_SHADOW_MEMORY  // which alone takes terabytes of addresses
-  limit(RLIMIT_AS, address_space() + config.memory);
+  limit(RLIMIT_CORE, 0, 0);
+  limit(RLIMIT_CPU, config.cpu_s, config.cpu_s + 1);  // at the first SIGXCPU, which tells the reason; then SIGKILL
+  itimerval wall{};
+  wall.it_value.tv_sec = static_cast<time_t>(config.wall_s);
+  wall.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (config.wall_s - std::floor(config.wall_s)));
+  (void)::setitimer(ITIMER_REAL, &wall, nullptr);  // SIGALRM ends the process
+#ifndef PLUMBLINE_SHADOW_MEMORY                    // which alone takes terabytes of addresses
+  const rlim_t most = address_space() + config.memory;
+  limit(RLIMIT_AS, most, most);
 #endif
 }
 
@@ -102,14 +109,15 @@ std::optional<std::string> read_all(int pipe, std::size_t longest) {
 
 SubprocessLimits subprocess_limits(std::size_t bytes, const SubprocessLimits& least) {
   constexpr std::size_t bytes_a_second = std::size_t{2} << 20U, memory_a_byte = 32;
+  constexpr double wall_a_cpu = 20.0;  // as many others may want the processor
   SubprocessLimits bounds = least;
   bounds.cpu_s += static_cast<unsigned>(bytes / bytes_a_second);
-  bounds.wall_s += 3 * static_cast<unsigned>(bytes / bytes_a_second);
+  bounds.wall_s += wall_a_cpu * static_cast<double>(bytes / bytes_a_second);
   bounds.memory += memory_a_byte * bytes;
   return bounds;
 }
 
-std::optional<std::string> run_in_subprocess(const std::function<std::string()>& task, const SubprocessLimits& config) {
+SubprocessResult run_in_subprocess(const std::function<std::string()>& task, const SubprocessLimits& config) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
@@ -127,10 +135,13 @@ std::optional<std::string> run_in_subprocess(const std::function<std::string()>&
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGALRM) return {SubprocessEnd::out_of_wall_time, {}};
+  if (signal == SIGXCPU) return {SubprocessEnd::out_of_cpu_time, {}};
   const bool whole = answer && !answer->empty() && answer->back() == done;
-  if (!whole || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  if (!whole || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
   answer->pop_back();
-  return answer;
+  return {SubprocessEnd::answered, std::move(answer)};
 }
 
 }  // namespace plumbline::bim

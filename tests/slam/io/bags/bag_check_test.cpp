@@ -217,13 +217,14 @@ TEST_F(BagCheck, ASpoiltBagNeverAborts) {
     bim::SubprocessLimits limits;
     limits.memory = std::uint64_t{512} << 20U;
     const auto answer = bim::run_in_subprocess(
-        [&] {
-          return input_error([&] {
-            const auto recording = open_bag(spoilt, {}, nullptr);
-            for (SensorFrame frame; recording->next(frame);) continue;
-          });
-        },
-        limits);
+                            [&] {
+                              return input_error([&] {
+                                const auto recording = open_bag(spoilt, {}, nullptr);
+                                for (SensorFrame frame; recording->next(frame);) continue;
+                              });
+                            },
+                            limits)
+                            .answer;
     ASSERT_TRUE(answer) << "byte " << at << " of trial " << i << " ended the process";
     refused += *answer == "no error" ? 0 : 1;
   }
