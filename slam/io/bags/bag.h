@@ -77,14 +77,14 @@ struct BagTopics {
 /// Opens a bag of any of these kinds, of ROS 1 or 2. Clouds are PointCloud2 or Livox's CustomMsg; an IMU whose first
 /// acceleration is within 15 % of 1 is taken to be in g, as Livox's. A record that comes
 /// later than newer ones of its topic, by at most a second, or has the stamp of the one before it, is left out and
-/// counted. So are one whose stamp leaps ahead of those around it, odometry and IMU that are not finite or no rotation,
-/// scans before the odometry, and an IMU that /tf_static does not join to the robot; the mount comes from /tf_static
-/// where `info` is null, and so does the IMU's attitude where it is there. What points' times count from is told once,
-/// from the first scans. A ROS 1 bag is checked as a whole first (check_bag), others as they are read. O is moved to
-/// the robot's first position and heading. Without odometry a joint that moves on /tf stands for it, see
-/// with_odometry_of_transforms(), where the mount is known. Throws InputError when it is no bag, holds no cloud, has a
-/// LiDAR that /tf_static does not join to the robot, odometry that overlaps no scan or has one stamp, or loses more
-/// than half of its scans or odometry so.
+/// counted. So are one whose stamp leaps ahead of those around it, one that was recorded at no possible time, odometry
+/// and IMU that are not finite or no rotation, scans before the odometry, and an IMU that /tf_static does not join to
+/// the robot; the mount comes from /tf_static where `info` is null, and so does the IMU's attitude where it is there.
+/// What points' times count from is told once, from the first scans. A ROS 1 bag is checked as a whole first
+/// (check_bag), others as they are read. O is moved to the robot's first position and heading. Without odometry a joint
+/// that moves on /tf stands for it, see with_odometry_of_transforms(), where the mount is known. Throws InputError when
+/// it is no bag, holds no cloud, has a LiDAR that /tf_static does not join to the robot, odometry that overlaps no scan
+/// or has one stamp, or loses more than half of its scans or odometry so.
 [[nodiscard]] std::unique_ptr<Recording> open_bag(const std::string& path, const BagTopics& topics,
                                                   const RecordingInfo* info);
 

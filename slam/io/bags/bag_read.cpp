@@ -55,7 +55,7 @@ class BagRecording final : public Recording {
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all;
     for (const std::vector<std::string>& said :
-         {source_->left_out(), clock_.left_out(), scans_.left_out(topics_.points, "scans"),
+         {source_->left_out(), messages_.left_out(), clock_.left_out(), scans_.left_out(topics_.points, "scans"),
           odometry_.left_out(topics_.odometry, "records"), imu_.left_out(topics_.imu, "records"),
           frames_.left_out("/tf_static")})
       all.insert(all.end(), said.begin(), said.end());
@@ -136,7 +136,7 @@ class BagRecording final : public Recording {
   std::size_t show_transforms(const std::string& topic, const F& add) {
     messages_.select({topic});
     std::size_t impossible = 0;
-    for (RawMessage message; messages_.next(message);) {
+    for (RawMessage message; messages_.next_of_any_time(message);) {
       if (!is_transforms(topic_of(message).type)) continue;
       const ros::Transforms transforms = ros::read_transforms(message.bytes, topic_of(message).encoding);
       impossible += transforms.impossible;

@@ -136,7 +136,7 @@ class TransformOdometry final : public MessageSource {
     waiting_.clear();
     firsts_.clear();
     seconds_.clear();
-    impossible_ = unjoined_ = 0;
+    impossible_ = unjoined_ = read_ = untimed_ = 0;
     source_->select(all);
   }
 
@@ -157,6 +157,7 @@ class TransformOdometry final : public MessageSource {
   [[nodiscard]] std::vector<std::string> left_out() const override {
     std::vector<std::string> all = source_->left_out();
     if (impossible_ > 0) all.push_back(ros::impossible_transforms(transforms_, impossible_));
+    if (untimed_ > 0) all.push_back(transforms_ + ": " + untimed_messages(untimed_, read_) + " and left out");
     constexpr std::size_t at_the_end = 10;  // that the second joint's last record was too early for is usual
     const std::size_t unjoined = unjoined_ + (firsts_.size() > at_the_end ? firsts_.size() : 0);
     if (unjoined > 0)
@@ -168,6 +169,11 @@ class TransformOdometry final : public MessageSource {
 
  private:
   void add_odometry(const RawMessage& message) {
+    ++read_;
+    if (!is_possible_time(message.time)) {  // it stands at a wrong place among the others
+      ++untimed_;
+      return;
+    }
     const ros::Transforms transforms = transforms_of(*source_, message);
     impossible_ += transforms.impossible;
     for (const ros::Transform& t : transforms.all) {
@@ -224,6 +230,7 @@ class TransformOdometry final : public MessageSource {
   std::deque<RawMessage> waiting_;               ///< odometry of a message that was read
   std::deque<ros::Transform> firsts_, seconds_;  ///< of a chain, by time; the first until the second is known
   std::size_t impossible_ = 0, unjoined_ = 0;
+  std::int64_t read_ = 0, untimed_ = 0;  ///< messages of transforms
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/io/records.h"
+#include "slam/io/second.h"
 
 namespace plumbline::slam {
 
@@ -24,6 +25,16 @@ struct RawMessage {
   Nanoseconds time = 0;   ///< when it was recorded, not its header's stamp
   std::vector<std::uint8_t> bytes;
 };
+
+/// Whether a message can have been recorded then: differences of such times do not overflow.
+[[nodiscard]] inline bool is_possible_time(Nanoseconds recorded) {
+  return recorded > -furthest_stamp && recorded < furthest_stamp;
+}
+
+/// "1 of 31 messages were recorded more than 126 years from 1970"
+[[nodiscard]] inline std::string untimed_messages(std::int64_t some, std::int64_t all) {
+  return std::to_string(some) + " of " + std::to_string(all) + " messages were recorded more than 126 years from 1970";
+}
 
 /// Messages of a bag, of whatever kind it is. Functions throw InputError where it is damaged.
 class MessageSource {

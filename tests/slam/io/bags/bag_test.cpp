@@ -10,10 +10,8 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 #include "bim/errors.h"
-#include "slam/io/bags/numbered_messages.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
 #include "tests/slam/io/packets/packets.h"
@@ -249,41 +247,6 @@ TEST_F(BagTest, NamesWhatIsWrong) {
     for (Odometry& record : frame.odometry) record.X_OR.t.x() = std::numeric_limits<double>::quiet_NaN();
   write(path, bag_profiles[0], frames);
   EXPECT_NE(complaint(path).find("records hold numbers that are no pose"), std::string::npos) << complaint(path);
-}
-
-/// One message, recorded at a time.
-class OneMessage final : public MessageSource {
- public:
-  explicit OneMessage(Nanoseconds time) : time_(time) {}
-  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
-  void select(const std::vector<std::string>&) override { given_ = false; }
-  [[nodiscard]] bool next(RawMessage& message) override {
-    message = {0, time_, {1}};
-    return !std::exchange(given_, true);
-  }
-  [[nodiscard]] Nanoseconds start() override { return time_; }
-
- private:
-  Nanoseconds time_;
-  bool given_ = false;
-  std::vector<BagTopic> topics_ = {{"/odom", "nav_msgs/Odometry", Encoding::cdr}};
-};
-
-TEST(NumberedMessagesTest, AMessageOfNoPossibleTimeIsRefused) {
-  const auto said = [](Nanoseconds time) {
-    OneMessage source(time);
-    NumberedMessages messages(source);
-    messages.select({"/odom"});
-    return input_error([&] {
-      RawMessage message;
-      static_cast<void>(messages.next(message));
-    });
-  };
-  constexpr Nanoseconds bound = 4'000'000'000'000'000'000;
-  for (const Nanoseconds time : {Nanoseconds{0}, bound - 1, 1 - bound}) EXPECT_EQ(said(time), "no error") << time;
-  for (const Nanoseconds time :
-       {bound, -bound, std::numeric_limits<Nanoseconds>::max(), std::numeric_limits<Nanoseconds>::min()})
-    EXPECT_EQ(said(time), "message 1 of topic '/odom': a time of recording more than 126 years from 1970") << time;
 }
 
 TEST_F(BagTest, UnwritablePlaceIsAnEnvironmentError) {

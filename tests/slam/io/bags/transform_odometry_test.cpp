@@ -25,6 +25,7 @@ struct Transforms {
   std::string mount_on = "base_link";  ///< parent of the LiDAR's frame on /tf_static; empty: none
   bool stands_still = false;
   int impossible = -1;  ///< message that holds no number
+  int untimed = -1;     ///< message that was recorded at no possible time
 };
 
 void write_transforms_alone(const std::string& path, const Transforms& said) {
@@ -38,8 +39,9 @@ void write_transforms_alone(const std::string& path, const Transforms& said) {
       std::vector<ros::Transform> all = said.others;
       for (ros::Transform& other : all) other.X.t.x() = seconds(record.stamp);
       all.push_back({record.stamp, said.parent, said.child, said.stands_still ? Pose{} : record.X_OR});
+      const Nanoseconds time = count == said.untimed ? std::numeric_limits<Nanoseconds>::max() : record.stamp;
       if (count++ == said.impossible) all.back().X.t.x() = std::numeric_limits<double>::quiet_NaN();
-      sink->write("/tf", MessageType::transforms, record.stamp, ros::write_transforms(all, Encoding::cdr), false);
+      sink->write("/tf", MessageType::transforms, time, ros::write_transforms(all, Encoding::cdr), false);
     }
     sink->write("/velodyne_points", MessageType::cloud, frame.scan.stamp,
                 ros::write_cloud(cloud_of(frame.scan, CloudLayout::organised), "velodyne", Encoding::cdr), false);
@@ -202,6 +204,17 @@ TEST(TransformOdometry, LeavesOutWhatIsNoPose) {
   EXPECT_EQ(walk.odometry.size(), all - 1);
   ASSERT_EQ(walk.left_out.size(), 1U);
   EXPECT_EQ(walk.left_out[0], "/tf: 1 transforms left out: numbers that are not finite, or no rotation");
+}
+
+TEST(TransformOdometry, LeavesOutWhatWasRecordedAtNoPossibleTime) {
+  const std::size_t all = read_walk(Transforms{}).odometry.size();
+  Transforms said;
+  said.untimed = 7;
+  const Walk walk = read_walk(said);
+  EXPECT_EQ(walk.odometry.size(), all - 1);
+  ASSERT_EQ(walk.left_out.size(), 1U);
+  EXPECT_EQ(walk.left_out[0], "/tf: 1 of " + std::to_string(all) +
+                                  " messages were recorded more than 126 years from 1970 and left out");
 }
 
 }  // namespace
