@@ -200,6 +200,7 @@ void Child::kill_all() const {
 }
 
 void Child::set_deadline(double seconds) {
+  printing_ = 0;
   deadline_s_ = seconds;
   constexpr std::int64_t second_ns = 1'000'000'000;
   const std::int64_t ns = std::max<std::int64_t>(1, std::llround(1e9 * seconds));  // 0 would stop the timer
@@ -269,6 +270,9 @@ void Child::read_printed() {
     if (on_printed_) on_printed_({text.data(), static_cast<std::size_t>(got)});
     printed_.append(text.data(), static_cast<std::size_t>(got));
     if (printed_.size() > printed_max) printed_.erase(0, printed_.size() - printed_max);
+    printing_ += static_cast<std::size_t>(got);
+    if (printing_ > printing_most_)
+      throw ProcessFailure("printed more than " + std::to_string(printing_most_ >> 20U) + " MiB for one answer");
   } else if (got == 0) {
     close_if_open(output_);  // poll() passes over -1
   }
@@ -281,7 +285,7 @@ bool Child::time_is_over() const {
 }
 
 // It may write for as long as it is read.
-bool Child::close_and_wait() {
+bool Child::close_and_wait(bool nothing_more) {
   ::shutdown(stream_, SHUT_WR);
   std::array<char, 65536> passed_over;
   for (;;) {
@@ -289,7 +293,7 @@ bool Child::close_and_wait() {
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) break;
     if (got > 0) {
       sent_more_ = true;
-      if (time_is_over()) return false;
+      if (nothing_more || time_is_over()) return false;
       continue;
     }
     const Ready ready = wait_for(POLLIN);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,6 +37,8 @@ class Child {
   Child& operator=(const Child&) = delete;
   Child& operator=(Child&&) = delete;
 
+  /// From now on it may print so many bytes within one deadline; ProcessFailure where it prints more.
+  void limit_printing(std::size_t most_bytes) { printing_most_ = most_bytes; }
   /// From now on send() and receive() together may take this long by the wall clock. Throws EnvironmentError.
   void set_deadline(double seconds);
   /// All bytes, or ProcessFailure: the process ended, or the time is over.
@@ -43,10 +46,10 @@ class Child {
   void receive(void* bytes, std::size_t size);
   /// ProcessFailure where the time is over: between messages of one that may send them without end.
   void check_time() const;
-  /// Closes the stream, passes over what still comes, and waits for the process until the deadline; whether it ended by
-  /// itself, with 0.
-  [[nodiscard]] bool close_and_wait();
-  /// Whether anything came that close_and_wait() passed over.
+  /// Closes the stream, passes over what still comes unless `nothing_more`, and waits for the process until the
+  /// deadline; whether it ended by itself, with 0.
+  [[nodiscard]] bool close_and_wait(bool nothing_more = false);
+  /// Whether anything came after close_and_wait().
   [[nodiscard]] bool sent_more() const { return sent_more_; }
   [[nodiscard]] bool ended() const { return ended_; }
   /// "exited with 7", a clause; of one that has closed the stream, after a moment for it to end.
@@ -75,7 +78,9 @@ class Child {
   double deadline_s_ = 0.0;
   bool ended_ = false, sent_more_ = false;
   int status_ = 0;
-  std::string printed_;  ///< the last of it
+  std::string printed_;       ///< the last of it
+  std::size_t printing_ = 0;  ///< bytes since the deadline was set
+  std::size_t printing_most_ = std::numeric_limits<std::size_t>::max();
   std::function<void(std::string_view)> on_printed_;
   std::function<void()> go_on_;
 };

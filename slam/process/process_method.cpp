@@ -37,6 +37,9 @@ constexpr std::size_t half_bytes = 32U << 20U;
 /// Characters of a reason to give up that are passed on: results, reports and terminals show it.
 constexpr std::size_t longest_reason = 2000;
 
+/// Bytes that a strict conversation takes beside an answer, printed or as lines for the log.
+constexpr std::size_t most_beside = 16U << 20U;
+
 /// One process and what is said to it.
 class Conversation {
  public:
@@ -45,6 +48,7 @@ class Conversation {
         memory_(2 * half_bytes),
         child_(command.command, command.folder, environment_of(input), command.printed, memory_.descriptor(),
                command.go_on) {
+    if (command.strict) child_.limit_printing(most_beside);
     child_.set_deadline(command.start_s);
     const std::string hello = greeting(command, input, memory_.bytes().size());
     send({wire::magic, static_cast<std::uint16_t>(wire::Type::hello), 0, hello.size()}, hello.data());
@@ -77,7 +81,7 @@ class Conversation {
   void end() {
     constexpr double strict_s = 5.0;
     child_.set_deadline(command_.strict ? strict_s : command_.finish_s);
-    const bool well = child_.close_and_wait();
+    const bool well = child_.close_and_wait(command_.strict);
     if (!command_.strict) return;
     if (child_.sent_more()) throw ProcessFailure("sends more after its estimate, which nobody reads");
     if (well) return;
@@ -94,10 +98,14 @@ class Conversation {
 
   /// Lines for the log are passed over, as long as there is time.
   [[nodiscard]] Bytes receive(wire::Type wanted) {
-    for (;;) {
+    for (std::size_t logged = 0;;) {
       Message message = receive_one();
       if (message.type == wire::Type::log) {
         child_.check_time();
+        logged += sizeof(wire::Head) + message.payload.size();
+        if (command_.strict && logged > most_beside)
+          throw ProcessFailure("sent more than " + std::to_string(most_beside >> 20U) +
+                               " MiB of lines for the log in place of an answer");
         continue;
       }
       if (message.type == wire::Type::fail)

@@ -23,8 +23,9 @@ struct ProcessCommand {
   double start_s = 30.0;
   double scan_s = 10.0;
   double finish_s = 120.0;
-  bool strict =
-      false;  ///< as conformance is: it must end with 0 within 5 s of its last answer, and send nothing reserved
+  /// As conformance is: it must end with 0 within 5 s of its last answer, send nothing reserved and nothing after it,
+  /// and print or log at most 16 MiB for one answer.
+  bool strict = false;
   std::function<void(std::string_view)> printed = {};  ///< gets what it prints, as it comes
   /// Gets each answer, to a scan or at the end, byte for byte; of `repeat`, those of the first process.
   std::function<void(std::span<const std::byte>)> answered = {};

@@ -159,6 +159,10 @@ TEST_F(Process, ConformanceSaysWhatIsWrong) {
   wrong({program("hostile_process"), "finish_exits"}, "exited with 7 after its last answer");
   wrong({program("hostile_process"), "finish_signal"}, "was ended by signal 11 after its last answer");
   wrong({program("hostile_process"), "finish_floods"}, "sends more after its estimate, which nobody reads");
+  const std::string patient = "600";  // s; floods are not read until then
+  wrong({"--quiet", "--scan-s", patient, program("hostile_process"), "floods"},
+        "at scan 11 (1.1 s): printed more than 16 MiB for one answer");
+  wrong({"--scan-s", patient, program("hostile_process"), "logs_on"}, "more than 16 MiB of lines for the log");
   wrong({program("hostile_process"), "good"}, "its pose never changes");
   wrong({program("hostile_process"), "good"}, "ok    repeats to the last bit");
   wrong({program("hostile_process"), "particle_otherwise"}, "the same records gave another answer at scan 11; replay");

@@ -59,6 +59,23 @@ TEST(Child, WhatItSendsWithoutEndIsReadUntilTheDeadline) {
   EXPECT_FALSE(silent.sent_more());
 }
 
+TEST(Child, AFloodIsNamedLongBeforeTheDeadline) {
+  Child prints(shell("exec cat /dev/zero"), "", {});
+  prints.limit_printing(1U << 20U);
+  prints.set_deadline(3600.0);
+  char byte = 0;
+  try {
+    prints.receive(&byte, 1);
+    ADD_FAILURE() << "got an answer";
+  } catch (const ProcessFailure& failure) {
+    EXPECT_STREQ(failure.what(), "printed more than 1 MiB for one answer");
+  }
+  Child sends(shell("exec cat /dev/zero >&3"), "", {});
+  sends.set_deadline(3600.0);
+  EXPECT_FALSE(sends.close_and_wait(true));
+  EXPECT_TRUE(sends.sent_more());
+}
+
 TEST(Child, ADeadlineJustBelowASecondCounts) {
   Child child(shell("sleep 10; exit 7"), "", {});
   child.set_deadline(0.9999999999);
