@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/host/interrupt.h"
 
+#include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <string_view>
 
 #include "slam/io/stopwatch.h"
@@ -15,6 +18,7 @@ namespace {
 /// A signal handler can reach nothing but variables of this kind.
 volatile std::sig_atomic_t pending_signal = 0;
 volatile std::sig_atomic_t pending_since_s = 0;
+volatile std::sig_atomic_t wake_descriptor = -1;
 
 /// Some programs send a signal to the process and to its group: the second, at once, is the same request.
 void note_signal(int signal) {
@@ -26,6 +30,10 @@ void note_signal(int signal) {
   }
   pending_since_s = now_s;
   pending_signal = signal;
+  const int failure = errno;
+  const std::uint64_t one = 1;
+  static_cast<void>(!::write(wake_descriptor, &one, sizeof one));
+  errno = failure;
 }
 
 /// Nothing here may allocate or lock.
@@ -48,12 +56,17 @@ void handle_signals(void (*handler)(int)) {
 
 }  // namespace
 
-void catch_interrupts() { handle_signals(note_signal); }
+void catch_interrupts() {
+  if (wake_descriptor < 0) wake_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  handle_signals(note_signal);
+}
 
 void exit_on_interrupts() { handle_signals(end_process); }
 
 void check_interrupt() {
   if (pending_signal != 0) throw Interrupted(pending_signal);
 }
+
+int interrupt_descriptor() { return wake_descriptor; }
 
 }  // namespace plumbline::scenarios

@@ -25,5 +25,8 @@ void catch_interrupts();
 void exit_on_interrupts();
 /// Throws Interrupted when a signal came.
 void check_interrupt();
+/// For poll(): readable once check_interrupt() throws, in whatever thread the signal came, so that none is missed
+/// between a check and a wait. Negative before catch_interrupts(), and where the process has no descriptor left.
+[[nodiscard]] int interrupt_descriptor();
 
 }  // namespace plumbline::scenarios

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,9 @@ std::string last_line(int log) {
   return std::string(text.substr(text.rfind('\n') + 1));
 }
 
+/// Readable once the child has ended; negative where the system has none, as before Linux 5.3.
+int end_descriptor(pid_t child) { return static_cast<int>(::syscall(SYS_pidfd_open, child, 0)); }
+
 /// The children that run, stopped with this object.
 class Running {
  public:
@@ -83,23 +87,25 @@ class Running {
       ::close(log);
       throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
     }
-    children_.emplace(child, Child{index, log});
+    children_.emplace(child, Child{index, log, end_descriptor(child)});
   }
 
   /// Waits for one of them to end.
   [[nodiscard]] std::pair<std::size_t, ChildEnd> wait() {
     while (true) {
-      int status = 0;
-      const pid_t child = ::waitpid(-1, &status, 0);
       check_interrupt();
-      if (child < 0 && errno == EINTR) continue;
-      if (child < 0) throw EnvironmentError(std::string("sweep: lost a run: ") + std::strerror(errno));
+      int status = 0;
+      const pid_t child = ::waitpid(-1, &status, WNOHANG);
+      if (child < 0 && errno != EINTR)
+        throw EnvironmentError(std::string("sweep: lost a run: ") + std::strerror(errno));
+      if (child == 0) wait_for_news();
       const auto found = children_.find(child);
       if (found == children_.end()) continue;
-      const auto [index, log] = found->second;
+      const auto [index, log, end] = found->second;
       children_.erase(found);
       const std::string said = last_line(log);
       ::close(log);
+      if (end >= 0) ::close(end);
       return {index, {WIFEXITED(status) ? WEXITSTATUS(status) : first_signal + WTERMSIG(status), said}};
     }
   }
@@ -108,7 +114,17 @@ class Running {
   struct Child {
     std::size_t index = 0;
     int log = -1;
+    int end = -1;  ///< end_descriptor()
   };
+
+  /// Until a child ends or a signal comes, of which none is lost that comes before.
+  void wait_for_news() const {
+    constexpr int look_ms = 100;
+    std::vector<pollfd> news = {{interrupt_descriptor(), POLLIN, 0}};
+    for (const auto& [pid, child] : children_) news.push_back({child.end, POLLIN, 0});
+    const bool all = std::all_of(news.begin(), news.end(), [](const pollfd& one) { return one.fd >= 0; });
+    ::poll(news.data(), news.size(), all ? -1 : look_ms);
+  }
 
   std::map<pid_t, Child> children_;
 };
