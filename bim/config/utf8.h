@@ -16,4 +16,7 @@ void append_utf8(std::string& text, char32_t c);
 /// Text of unknown encoding as UTF-8: UTF-8 stays, every other byte above 0x7F is the Latin-1 character it stands for.
 [[nodiscard]] std::string utf8_of_bytes(std::string_view bytes);
 
+/// Without the mark which some editors write before the first character of UTF-8.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <initializer_list>
 
+#include "bim/config/utf8.h"
 #include "bim/errors.h"
 #include "bim/formats/mesh/mesh_file.h"
 
@@ -54,8 +55,7 @@ constexpr std::array<Signature, 8> others{{
 }};
 
 std::string_view without_mark_and_blanks(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
 }

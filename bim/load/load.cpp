@@ -6,6 +6,7 @@
 
 #include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
 #include "bim/errors.h"
 #include "bim/formats/ifc/read/ifc.h"
 #include "bim/formats/mesh/mesh_file.h"
@@ -23,8 +24,7 @@ bool starts_with(std::string_view text, std::string_view head) { return text.sub
 
 /// The text from its first line that is neither blank nor a YAML comment.
 std::string_view first_content(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (starts_with(text, byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   while (!text.empty()) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos) return {};

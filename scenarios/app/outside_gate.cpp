@@ -5,18 +5,10 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "bim/config/words.h"
 #include "bim/errors.h"
 
 namespace plumbline::scenarios {
-
-namespace {
-
-std::string without_blanks(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
-}  // namespace
 
 GateSpec parse_gate(const std::string& text) {
   const Mark mark{"--gate", 0, 0};
@@ -25,7 +17,7 @@ GateSpec parse_gate(const std::string& text) {
   if (!at_most) sign = text.find(">=");
   if (sign == std::string::npos || without_blanks(text.substr(0, sign)).empty())
     throw InputError(mark, "'" + text + "' must be METRIC<=X or METRIC>=X, in quotes, as 'ate_aligned_rmse_m<=0.05'");
-  const std::string number = without_blanks(text.substr(sign + 2));
+  const std::string number(without_blanks(text.substr(sign + 2)));
   double limit = 0.0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), limit);
   constexpr double most = 1e9;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bim/config/words.h"
 #include "bim/errors.h"
 #include "bim/ply_types.h"
 
@@ -20,17 +21,6 @@ struct Element {
 };
 
 using Words = std::vector<std::string_view>;
-
-Words words_of(std::string_view line) {
-  Words words;
-  while (true) {
-    const std::size_t from = line.find_first_not_of(" \t\r");
-    if (from == std::string_view::npos) return words;
-    line.remove_prefix(from);
-    words.push_back(line.substr(0, line.find_first_of(" \t\r")));
-    line.remove_prefix(words.back().size());
-  }
-}
 
 class Header {
  public:
@@ -68,7 +58,7 @@ class Header {
       ++mark_.line;
       if (end == std::string_view::npos || mark_.line > most_lines)
         fail("the header does not end; its last line must be 'end_header'");
-      const Words words = words_of(rest_.substr(0, end));
+      const Words words = split_words(rest_.substr(0, end));
       rest_.remove_prefix(end + 1);
       if (!words.empty() && words.front() != "comment" && words.front() != "obj_info") return words;
     }

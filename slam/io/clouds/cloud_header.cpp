@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bim/config/file_ending.h"
+#include "bim/config/words.h"
 #include "bim/errors.h"
 #include "bim/ply_types.h"
 
@@ -36,16 +37,9 @@ class HeaderLines {
   [[nodiscard]] Line next() {
     const std::size_t end = bytes_.substr(at_, longest_line + 1).find('\n');
     if (end == std::string_view::npos || ++number_ > most_lines) fail("the header does not end");
-    std::string_view text = bytes_.substr(at_, end);
+    const std::string_view text = bytes_.substr(at_, end);
     at_ += end + 1;
-    Line line{{}, number_};
-    while (true) {
-      const std::size_t from = text.find_first_not_of(" \t\r");
-      if (from == std::string_view::npos) return line;
-      text.remove_prefix(from);
-      line.words.push_back(text.substr(0, text.find_first_of(" \t\r")));
-      text.remove_prefix(line.words.back().size());
-    }
+    return {split_words(text), number_};
   }
 
   [[nodiscard]] std::size_t read() const { return at_; }

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "bim/config/input_file.h"
+#include "bim/config/utf8.h"
+#include "bim/config/words.h"
 #include "bim/errors.h"
 #include "slam/io/recordings/tum.h"
 #include "slam/io/second.h"
@@ -45,11 +47,6 @@ std::optional<Nanoseconds> parse_date(std::string_view text) {
   if (!date.ok()) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
   return ((days * 24 + *hour) * 60 + *minute) * 60 * second_ns + in_minute;
-}
-
-std::string_view without_blanks(std::string_view line) {
-  const std::size_t from = line.find_first_not_of(" \t\r"), to = line.find_last_not_of(" \t\r");
-  return from == std::string_view::npos ? std::string_view() : line.substr(from, to - from + 1);
 }
 
 /// The digits before the ending: 7 of scan_0007.bin.

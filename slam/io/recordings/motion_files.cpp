@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
+#include "bim/config/words.h"
 #include "bim/errors.h"
 #include "slam/io/recordings/record_file.h"
 #include "slam/io/recordings/trajectory.h"
@@ -23,12 +25,6 @@ namespace {
 constexpr Nanoseconds longest_sweep = 2'000'000'000;
 constexpr std::string_view no_imu = "no record of the IMU lies within the time of the scans; are both on one clock?";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t");
-  return from == std::string_view::npos ? std::string_view()
-                                        : text.substr(from, text.find_last_not_of(" \t") + 1 - from);
-}
-
 /// Of EuRoC: whole nanoseconds, then six numbers, with commas between them.
 Imu parse_euroc_imu(std::string_view line, const Mark& mark) {
   Imu record;
@@ -37,7 +33,7 @@ Imu parse_euroc_imu(std::string_view line, const Mark& mark) {
   bool good = true;
   for (std::string_view rest = line; good;) {
     const std::size_t end_of_column = rest.find(',');
-    const std::string_view text = trimmed(rest.substr(0, end_of_column));
+    const std::string_view text = without_blanks(rest.substr(0, end_of_column));
     if (columns == 0) {
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), record.stamp);
       good = error == std::errc() && end == text.data() + text.size() && record.stamp > -furthest_stamp &&

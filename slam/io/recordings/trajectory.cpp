@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "bim/config/utf8.h"
+#include "bim/config/words.h"
 #include "bim/errors.h"
 #include "slam/io/pose_check.h"
 #include "slam/io/recordings/tum.h"
@@ -18,19 +20,13 @@ constexpr std::size_t kitti_columns = 12, euroc_columns = 8;
 
 using Columns = std::vector<std::string_view>;
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") + 1 - from);
-}
-
 /// Columns between blanks, or between commas where there are any.
 Columns split(std::string_view line) {
   const bool commas = line.find(',') != std::string_view::npos;
   Columns columns;
-  for (std::string_view rest = trimmed(line);; rest = trimmed(rest)) {
+  for (std::string_view rest = without_blanks(line);; rest = without_blanks(rest)) {
     const std::size_t end = rest.find_first_of(commas ? "," : " \t");
-    columns.push_back(trimmed(rest.substr(0, end)));
+    columns.push_back(without_blanks(rest.substr(0, end)));
     if (end == std::string_view::npos) return columns;
     rest.remove_prefix(end + 1);
   }
@@ -41,7 +37,7 @@ template <class Use>
 void for_each_line(std::string_view text, const Use& use) {
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = without_blanks(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (!line.empty() && line.front() != '#' && !use(line, number)) return;
   }

@@ -6,30 +6,12 @@
 #include <cmath>
 
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
+#include "bim/config/words.h"
 #include "slam/io/pose_check.h"
 #include "slam/io/second.h"
 
 namespace plumbline::slam {
-
-namespace {
-
-std::vector<std::string_view> columns_of(std::string_view line) {
-  std::vector<std::string_view> columns;
-  std::size_t at = 0;
-  while ((at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-    columns.push_back(line.substr(at, end - at));
-    at = end;
-  }
-  return columns;
-}
-
-}  // namespace
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  return text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
-}
 
 bool parse_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -55,7 +37,7 @@ bool parse_stamp(std::string_view text, Nanoseconds& stamp) {
 }
 
 StampedPose parse_tum_line(std::string_view line, const Mark& mark) {
-  const std::vector<std::string_view> columns = columns_of(line);
+  const std::vector<std::string_view> columns = split_words(line);
   if (columns.size() != 8)
     throw InputError(mark, std::to_string(columns.size()) + " columns; a TUM line has 8: t tx ty tz qx qy qz qw");
   StampedPose pose;
@@ -98,7 +80,7 @@ std::vector<StampedPose> read_tum(std::string_view text, const std::string& file
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty() || line.front() == '#' || columns_of(line).empty()) continue;
+    if (line.empty() || line.front() == '#' || split_words(line).empty()) continue;
     const Mark mark{file, line_number, 1};
     poses.push_back(parse_tum_line(line, mark));
     if (poses.size() > 1 && poses.back().stamp <= poses[poses.size() - 2].stamp)

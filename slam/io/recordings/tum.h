@@ -17,8 +17,6 @@ namespace plumbline::slam {
 [[nodiscard]] StampedPose parse_tum_line(std::string_view line, const Mark& mark);
 /// Reads decimal seconds, to the nanosecond. False where the text is no number or 4e9 s or more from 0.
 [[nodiscard]] bool parse_stamp(std::string_view text, Nanoseconds& stamp);
-/// Of UTF-8, which some editors write before the first line.
-[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 /// Reads a finite number that is all of the text.
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
 /// TUM text: "t tx ty tz qx qy qz qw" a line, one space between, numbers that read back to the same bits.

@@ -31,6 +31,14 @@ TEST(Utf8, BytesOfUnknownEncoding) {
   EXPECT_EQ(utf8_of_bytes(""), "");
 }
 
+TEST(Utf8, TheByteOrderMarkIsLeftOutOnce) {
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF"
+                                    "a"),
+            "a");
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF\xEF\xBB\xBF"), "\xEF\xBB\xBF");
+  for (const std::string_view plain : {"", "a", "\xEF\xBB"}) EXPECT_EQ(without_byte_order_mark(plain), plain);
+}
+
 TEST(Utf8, AnyBytesBecomeUtf8OnceAndForAll) {
   const Stream random(4, "bim.generate");
   for (std::uint64_t i = 0; i < 5000; ++i) {

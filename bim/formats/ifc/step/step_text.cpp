@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bim/config/utf8.h"
 #include "bim/errors.h"
 
 namespace plumbline::bim {
@@ -314,7 +315,7 @@ std::int64_t StepText::missing(std::int64_t step_id) const {
 }
 
 std::string without_comments(std::string_view text) {
-  std::string result(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
+  std::string result(without_byte_order_mark(text));
   bool in_string = false;
   std::size_t behind = 0;  // what was last and is no blank
   for (std::size_t at = 0; at < result.size(); ++at) {
