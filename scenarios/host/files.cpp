@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
+#include "bim/config/descriptor.h"
 #include "bim/errors.h"
 #include "scenarios/host/manifest.h"
 
@@ -24,29 +24,6 @@ constexpr std::string_view staging_name = ".partial";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
   throw EnvironmentError(path + ": " + what + ": " + std::strerror(error));
-}
-
-/// Closes on every way out.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { close_now(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-  int close_now() { return fd_ >= 0 ? ::close(std::exchange(fd_, -1)) : 0; }
-
- private:
-  int fd_;
-};
-
-void write_all(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(path, "cannot be written", errno);
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
 }
 
 void sync_directory(const std::string& path) {
@@ -79,7 +56,7 @@ void write_file(const std::string& path, std::string_view bytes) {
   try {
     Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) fail(path, "cannot be written", errno);
-    write_all(file.get(), bytes, path);
+    if (!write_all(file.get(), bytes)) fail(path, "cannot be written", errno);
     if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
     if (file.close_now() != 0) fail(path, "cannot be written", errno);
     if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be written", errno);

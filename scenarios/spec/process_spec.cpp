@@ -4,15 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 #include "bim/errors.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/spec/method_names.h"
 #include "slam/process/process_method.h"
+#include "slam/process/search_path.h"
 
 namespace plumbline::scenarios {
 
@@ -102,10 +101,8 @@ void check_program(const std::vector<std::string>& command, const std::string& f
     throw InputError(mark, std::filesystem::exists(path) ? "'" + name + "' is no program: " + why
                                                          : "there is no program '" + name + "'");
   }
-  const char* folders = std::getenv("PATH");
-  std::istringstream list(folders == nullptr ? "/bin:/usr/bin" : folders);
-  for (std::string one; std::getline(list, one, ':');)
-    if (runs(std::filesystem::path(one.empty() ? folder : one) / name)) return;
+  for (const std::string& one : slam::search_path(folder))
+    if (runs(std::filesystem::path(one) / name)) return;
   throw InputError(mark, "there is no program '" + name + "' in PATH; of one in this folder say ./" + name);
 }
 

@@ -16,7 +16,9 @@
 #include <cstring>
 #include <map>
 #include <string_view>
+#include <utility>
 
+#include "bim/config/descriptor.h"
 #include "bim/errors.h"
 #include "scenarios/host/interrupt.h"
 
@@ -77,17 +79,15 @@ class Running {
     std::vector<char*> argv;
     for (std::string& text : arguments) argv.push_back(text.data());
     argv.push_back(nullptr);
-    const int log = ::memfd_create("log", MFD_CLOEXEC);
-    if (log < 0) throw EnvironmentError(std::string("sweep: no memory for a run's messages: ") + std::strerror(errno));
+    Descriptor log(::memfd_create("log", MFD_CLOEXEC));
+    if (log.get() < 0)
+      throw EnvironmentError(std::string("sweep: no memory for a run's messages: ") + std::strerror(errno));
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child == 0) become(program.c_str(), argv.data(), log, parent);
+    if (child == 0) become(program.c_str(), argv.data(), log.get(), parent);
     const int failure = errno;
-    if (child < 0) {
-      ::close(log);
-      throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
-    }
-    children_.emplace(child, Child{index, log, end_descriptor(child)});
+    if (child < 0) throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
+    children_.emplace(child, Child{index, std::move(log), Descriptor(end_descriptor(child))});
   }
 
   /// Waits for one of them to end.
@@ -101,11 +101,9 @@ class Running {
       if (child == 0) wait_for_news();
       const auto found = children_.find(child);
       if (found == children_.end()) continue;
-      const auto [index, log, end] = found->second;
+      const std::size_t index = found->second.index;
+      const std::string said = last_line(found->second.log.get());
       children_.erase(found);
-      const std::string said = last_line(log);
-      ::close(log);
-      if (end >= 0) ::close(end);
       return {index, {WIFEXITED(status) ? WEXITSTATUS(status) : first_signal + WTERMSIG(status), said}};
     }
   }
@@ -113,15 +111,15 @@ class Running {
  private:
   struct Child {
     std::size_t index = 0;
-    int log = -1;
-    int end = -1;  ///< end_descriptor()
+    Descriptor log;
+    Descriptor end;  ///< end_descriptor()
   };
 
   /// Until a child ends or a signal comes, of which none is lost that comes before.
   void wait_for_news() const {
     constexpr int look_ms = 100;
     std::vector<pollfd> news = {{interrupt_descriptor(), POLLIN, 0}};
-    for (const auto& [pid, child] : children_) news.push_back({child.end, POLLIN, 0});
+    for (const auto& [pid, child] : children_) news.push_back({child.end.get(), POLLIN, 0});
     const bool all = std::all_of(news.begin(), news.end(), [](const pollfd& one) { return one.fd >= 0; });
     ::poll(news.data(), news.size(), all ? -1 : look_ms);
   }

@@ -11,10 +11,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 
+#include "bim/config/descriptor.h"
 #include "bim/errors.h"
 #include "slam/process/child.h"
+#include "slam/process/search_path.h"
 
 namespace plumbline::slam {
 
@@ -29,24 +30,6 @@ enum class Step : int { folder, program };
 struct Report {
   Step step = Step::program;
   int error = 0;
-};
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { close_now(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-  void close_now() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-  }
-
- private:
-  int fd_;
 };
 
 /// -1 of -1.
@@ -67,10 +50,8 @@ std::vector<char*> pointers(const std::vector<std::string>& words) {
 /// Where a program of this name may stand, in the order of PATH.
 std::vector<std::string> places_of(const std::string& program) {
   if (program.find('/') != std::string::npos) return {program};
-  const char* path = std::getenv("PATH");
   std::vector<std::string> places;
-  std::istringstream folders(path == nullptr ? "/bin:/usr/bin" : path);
-  for (std::string one; std::getline(folders, one, ':');) places.push_back((one.empty() ? "." : one) + "/" + program);
+  for (const std::string& folder : search_path(".")) places.push_back(folder + "/" + program);
   return places;
 }
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bim/config/descriptor.h"
 #include "bim/errors.h"
 
 #if defined(__has_feature)
@@ -59,17 +60,6 @@ void bound(const SubprocessLimits& config) {
 #endif
 }
 
-bool write_all(int pipe, const char* at, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(pipe, at, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    at += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
 [[noreturn]] void child(int pipe, const std::function<std::string()>& task, const SubprocessLimits& config) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU, SIGALRM})
     (void)std::signal(signal, SIG_DFL);
@@ -86,7 +76,7 @@ bool write_all(int pipe, const char* at, std::size_t size) {
   bool ok = false;
   try {
     const std::string answer = task();
-    ok = write_all(pipe, answer.data(), answer.size()) && write_all(pipe, &done, 1);
+    ok = write_all(pipe, answer) && write_all(pipe, {&done, 1});
   } catch (...) {
   }
   ::_exit(ok ? 0 : 1);
@@ -121,17 +111,13 @@ SubprocessResult run_in_subprocess(const std::function<std::string()>& task, con
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
+  Descriptor from(ends[0]), to(ends[1]);
   const pid_t pid = ::fork();
-  if (pid < 0) {
-    const std::string reason = std::strerror(errno);
-    ::close(ends[0]);
-    ::close(ends[1]);
-    throw EnvironmentError("cannot make a process: " + reason);
-  }
-  if (pid == 0) child(ends[1], task, config);
-  ::close(ends[1]);
-  std::optional<std::string> answer = read_all(ends[0], config.answer);
-  ::close(ends[0]);
+  if (pid < 0) throw EnvironmentError(std::string("cannot make a process: ") + std::strerror(errno));
+  if (pid == 0) child(to.get(), task, config);
+  to.close_now();
+  std::optional<std::string> answer = read_all(from.get(), config.answer);
+  from.close_now();  // a child that still writes ends
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
