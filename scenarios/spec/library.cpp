@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "bim/config/input_file.h"
+#include "bim/config/installed_folder.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 
@@ -28,15 +29,8 @@ bool may_be_scenario(const std::string& path) {
 }  // namespace
 
 std::string library_folder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  for (const char* from_program :
-       {"../share/plumbline/scenarios", "../../scenarios/library", "../../../scenarios/library"}) {
-    const fs::path folder = (program.parent_path() / from_program).lexically_normal();
-    if (fs::exists(folder / "quickstart.yaml", error)) return folder.string();
-  }
-  return {};
+  return installed_folder({"../share/plumbline/scenarios", "../../scenarios/library", "../../../scenarios/library"},
+                          "quickstart.yaml");
 }
 
 std::vector<std::string> scenario_files(const std::string& folder) {
