@@ -2,29 +2,11 @@
 #include "slam/loop/fitness.h"
 
 #include <cmath>
-#include <nanoflann.hpp>
 
+#include "slam/scan/kd_tree.h"
 #include "slam/scan/voxel.h"
 
 namespace plumbline::slam {
-
-namespace {
-
-/// Adaptor of a cloud to nanoflann.
-struct Cloud {
-  const std::vector<Eigen::Vector3d>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree3 = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::size_t>;
-
-}  // namespace
 
 std::vector<Eigen::Vector3d> fitness_cloud(const DeskewedScan& scan, const FitnessConfig& config) {
   std::vector<Eigen::Vector3d> points;
@@ -35,16 +17,9 @@ std::vector<Eigen::Vector3d> fitness_cloud(const DeskewedScan& scan, const Fitne
 
 double fitness(const std::vector<Eigen::Vector3d>& points_A, const std::vector<Eigen::Vector3d>& points_B,
                const Pose& X_AB) {
-  const Cloud cloud{points_A};
-  const Tree3 tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  const KdTree tree(points_A);
   double sum = 0.0;
-  for (const Eigen::Vector3d& p_B : points_B) {
-    const Eigen::Vector3d p_A = X_AB * p_B;
-    std::size_t nearest = 0;
-    double squared = 0.0;
-    tree.knnSearch(p_A.data(), 1, &nearest, &squared);
-    sum += squared;
-  }
+  for (const Eigen::Vector3d& p_B : points_B) sum += tree.nearest(X_AB * p_B, 1).front().distance2;
   return sum / static_cast<double>(points_B.size());
 }
 

@@ -122,6 +122,13 @@ void MotionBuffer::set_clock_offset(Nanoseconds offset, Nanoseconds t) {
   frame_shift_ = frame_shift_ ? shift * *frame_shift_ : shift;
 }
 
+std::vector<Eigen::Vector3d> points_between(const DeskewedScan& scan, double min_range_m, double max_range_m) {
+  std::vector<Eigen::Vector3d> points_R;
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
+    if (scan.range_m[i] >= min_range_m && scan.range_m[i] <= max_range_m) points_R.push_back(scan.point_R[i]);
+  return points_R;
+}
+
 std::vector<Eigen::Vector3d> points_of(const DeskewedScan& scan, const std::vector<std::uint32_t>& returns) {
   std::vector<Eigen::Vector3d> points_R;
   points_R.reserve(returns.size());

@@ -105,6 +105,10 @@ struct DeskewedScan {
   TwistSigma twist_sigma;                ///< of the motion during the scan that was undone
 };
 
+/// Coordinates in R of the returns of these ranges, in the scan's order.
+[[nodiscard]] std::vector<Eigen::Vector3d> points_between(const DeskewedScan& scan, double min_range_m,
+                                                          double max_range_m);
+
 /// Coordinates of these returns in R, side by side; a scan stores those of a ring far apart.
 [[nodiscard]] std::vector<Eigen::Vector3d> points_of(const DeskewedScan& scan,
                                                      const std::vector<std::uint32_t>& returns);

@@ -21,11 +21,8 @@ namespace hdl {
 namespace {
 
 std::vector<Eigen::Vector3d> prefiltered(const DeskewedScan& scan, const PrefilterConfig& config) {
-  std::vector<Eigen::Vector3d> points_R;
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m)
-      points_R.push_back(scan.point_R[i]);
-  points_R = voxel_downsample(points_R, config.voxel_m);
+  std::vector<Eigen::Vector3d> points_R =
+      voxel_downsample(points_between(scan, config.min_range_m, config.max_range_m), config.voxel_m);
   if (config.outlier_neighbours == 0) return points_R;
   const KdTree tree(points_R);
   const auto count = static_cast<std::size_t>(config.outlier_neighbours) + 1;  // itself besides

@@ -17,11 +17,7 @@ namespace plumbline::slam {
 namespace {
 
 std::vector<Eigen::Vector3d> thinned_returns(const DeskewedScan& scan, const PclLocalMapConfig& config) {
-  std::vector<Eigen::Vector3d> points_R;
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m)
-      points_R.push_back(scan.point_R[i]);
-  return voxel_downsample(points_R, config.scan_voxel_m);
+  return voxel_downsample(points_between(scan, config.min_range_m, config.max_range_m), config.scan_voxel_m);
 }
 
 /// The latest keyframes as the target of a matcher, in the frame K of the newest: PCL's floats are fine near the

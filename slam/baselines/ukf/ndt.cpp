@@ -189,11 +189,7 @@ NdtMatch NdtMap::align(std::span<const Eigen::Vector3d> points_R, const Pose& st
 }
 
 std::vector<Eigen::Vector3d> ndt_points(const DeskewedScan& scan, const NdtConfig& config) {
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (scan.range_m[i] >= config.min_range_m && scan.range_m[i] <= config.max_range_m)
-      points.push_back(scan.point_R[i]);
-  return voxel_downsample(points, config.scan_voxel_m);
+  return voxel_downsample(points_between(scan, config.min_range_m, config.max_range_m), config.scan_voxel_m);
 }
 
 }  // namespace plumbline::slam

@@ -235,5 +235,13 @@ TEST(DeskewTest, PutsReturnsOfATurningRobotBackOntoTheRoom) {
   EXPECT_GT(worst_raw, 0.05) << "the walk is too slow to test anything";
 }
 
+TEST(DeskewedScanTest, PointsBetweenRangesComeInTheScansOrder) {
+  DeskewedScan scan;
+  scan.range_m = {0.0, 2.0, 5.0, 1.0, 3.0};
+  for (const double range : scan.range_m) scan.point_R.emplace_back(range, 0.0, 0.0);
+  EXPECT_EQ(points_between(scan, 1.0, 3.0),
+            (std::vector<Eigen::Vector3d>{scan.point_R[1], scan.point_R[3], scan.point_R[4]}));
+}
+
 }  // namespace
 }  // namespace plumbline::slam
