@@ -13,6 +13,7 @@
 #include "bim/furniture/draws.h"
 #include "bim/furniture/layout.h"
 #include "bim/furniture/room_space.h"
+#include "bim/model/boxes.h"
 #include "bim/model/permanence.h"
 
 namespace plumbline::bim {
@@ -36,12 +37,6 @@ struct FurnishedRoom {
 };
 
 bool is_furniture(const Obstacle& obstacle) { return permanence_of(obstacle) == Permanence::furniture; }
-
-Eigen::AlignedBox3d box_of(const Solid& solid) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
-  return box;
-}
 
 /// The room on whose floor the middle of a box stands, or -1.
 int room_of(const Building& building, const Eigen::AlignedBox3d& box) {

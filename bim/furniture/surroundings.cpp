@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bim/model/boxes.h"
 #include "bim/model/hull.h"
 #include "bim/model/stair_flight.h"
 #include "bim/model/through.h"
@@ -15,13 +16,9 @@ namespace {
 
 using Box3 = Eigen::AlignedBox3d;
 
-void extend(Box3& box, const Solid& solid) {
-  for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
-}
-
 Box3 bounds_of(const Wall& wall) {
   Box3 box;
-  if (wall.body) extend(box, *wall.body);
+  if (wall.body) box.extend(box_of(*wall.body));
   if (wall.body) return box;
   for (const Eigen::Vector2d& p : footprint(wall))
     for (const double z : {wall.z0_m, wall.z1_m}) box.extend(Eigen::Vector3d(p.x(), p.y(), z));
@@ -30,7 +27,7 @@ Box3 bounds_of(const Wall& wall) {
 
 Box3 bounds_of(const Column& column) {
   Box3 box;
-  if (column.body) extend(box, *column.body);
+  if (column.body) box.extend(box_of(*column.body));
   if (column.body) return box;
   for (const Eigen::Vector2d& p : column.footprint)
     for (const double z : {column.z0_m, column.z1_m}) box.extend(Eigen::Vector3d(p.x(), p.y(), z));
@@ -39,7 +36,7 @@ Box3 bounds_of(const Column& column) {
 
 Box3 bounds_of(const Stair& stair) {
   Box3 box;
-  for (const Solid& solid : stair.bodies) extend(box, solid);
+  for (const Solid& solid : stair.bodies) box.extend(box_of(solid));
   for (const StairFlight& flight : stair.flights)
     for (const Eigen::Vector2d& p : steps_outline(flight, 0, flight.steps - 1))
       for (const int step : {0, flight.steps})
@@ -108,11 +105,11 @@ Surroundings::Surroundings(const Building& building) : building_(building) {
   for (const Stair& stair : building.stairs) stairs_.push_back(bounds_of(stair));
   for (const Slab& slab : building.slabs) {
     slabs_.emplace_back();
-    if (slab.body) extend(slabs_.back(), *slab.body);
+    if (slab.body) slabs_.back().extend(box_of(*slab.body));
   }
   for (const Obstacle& obstacle : building.obstacles) {
     obstacles_.emplace_back();
-    extend(obstacles_.back(), obstacle.body);
+    obstacles_.back().extend(box_of(obstacle.body));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bim/mesh/solid.h"
+#include "bim/model/boxes.h"
 
 namespace plumbline::bim {
 namespace {
@@ -51,12 +52,6 @@ std::vector<Solid> numbered_shells(const Solid& solid, const std::vector<int>& n
     result[static_cast<std::size_t>(numbers[static_cast<std::size_t>(t[0])])].triangles.push_back(
         t.unaryExpr([&](int i) { return place[static_cast<std::size_t>(i)]; }));
   return result;
-}
-
-Eigen::AlignedBox3d box_of(const Solid& solid) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
-  return box;
 }
 
 /// Share of all directions in which a closed surface is seen from p [vanoosterom1983]: 1 inside, 0 outside, between on

@@ -11,6 +11,12 @@ Eigen::AlignedBox2d box_of(const Polygon2& outline) {
   return box;
 }
 
+Eigen::AlignedBox3d box_of(const Solid& solid) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
+  return box;
+}
+
 void BoxIndex::add(const Polygon2& outline) { boxes_.push_back(box_of(outline)); }
 
 std::vector<int> BoxIndex::near(const Polygon2& outline, double margin_m) const {

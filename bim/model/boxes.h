@@ -9,6 +9,8 @@
 namespace plumbline::bim {
 
 [[nodiscard]] Eigen::AlignedBox2d box_of(const Polygon2& outline);
+/// Of all vertices, also of those that no triangle has.
+[[nodiscard]] Eigen::AlignedBox3d box_of(const Solid& solid);
 
 /// Bounding boxes in plan view of a list of elements, for a broad-phase test: about a nanosecond a box, where an exact
 /// test costs a hundred.

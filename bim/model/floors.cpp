@@ -275,8 +275,7 @@ class Floors {
 
 bool is_floor_covering(const Building& building, const Obstacle& obstacle, const FloorConfig& config) {
   if (obstacle.kind != "covering" || obstacle.body.triangles.empty()) return false;
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : obstacle.body.vertices) box.extend(p);
+  const Eigen::AlignedBox3d box = box_of(obstacle.body);
   if (box.sizes().z() > config.covering_m) return false;
   double level_m2 = 0.0;
   for (const Eigen::Vector3i& t : obstacle.body.triangles) {

@@ -6,6 +6,7 @@
 #include "bim/digest/digest.h"
 #include "bim/mesh/solid.h"
 #include "bim/model/adjacency.h"
+#include "bim/model/boxes.h"
 #include "bim/model/wall_frame.h"
 #include "bim/plan/plan.h"
 #include "scenarios/app/inspect/inspect.h"
@@ -219,7 +220,7 @@ class Inspector {
     for (const bim::Solid& solid : bim::solids_of(opening)) {
       volume += bim::volume(solid);
       closed = closed && bim::is_closed(solid);
-      for (const Eigen::Vector3d& p : solid.vertices) box.extend(p);
+      box.extend(bim::box_of(solid));
     }
     if (!opening.solid) {
       volume = opening.width_m * (opening.z1_m - opening.z0_m) * wall.thickness_m;

@@ -101,7 +101,7 @@ std::optional<PolygonWithHoles2> Interpreter::free_piece(const NamedPlace& place
   std::optional<PolygonWithHoles2> best;
   double best_m2 = least_m2;
   for (PolygonWithHoles2& piece : subtract(without_rooms(outline, rooms), walls)) {
-    const double piece_m2 = area({piece});
+    const double piece_m2 = area(Region2{piece});
     if (piece_m2 < best_m2 || (best && piece_m2 == best_m2)) continue;
     best_m2 = piece_m2;
     best = std::move(piece);
