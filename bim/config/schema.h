@@ -131,9 +131,6 @@ class SchemaVisitor {
   std::string prefix_;
 };
 
-/// The first value of this key in examples of the file, as text; empty when they have none.
-[[nodiscard]] std::string example_of(const std::vector<Tree>& examples, const SchemaSection& section,
-                                     const SchemaField& field);
 /// The basic fields; all of them where none is basic.
 [[nodiscard]] std::vector<SchemaField> basic_fields(const std::vector<SchemaField>& fields);
 /// YAML with every key of a file without lists of entries at its default, each with its description as a comment.

@@ -31,20 +31,14 @@ using ModelPtr = std::unique_ptr<mjModel_, ModelDeleter>;
 using DataPtr = std::unique_ptr<mjData_, DataDeleter>;
 
 /// The quadruped, a floor plane, the box pool and the plates as MJCF text. Bodies: base, lidar_mount, then per leg hip,
-/// upper and lower; joints and actuators per leg hx, hy, kn; sensors in the order of SensorLayout.
+/// upper and lower; joints and actuators per leg hx, hy, kn; sensors as accelerometer, gyro and
+/// attitude of the IMU, angles and rates of the joints, touch of the feet, place and attitude of the LiDAR.
 [[nodiscard]] std::string model_xml(const ModelConfig& config);
 
-/// Where each sensor starts in mjData::sensordata.
+/// Where in mjData::sensordata the sensors start that are read; the others count in the digest.
 struct SensorLayout {
   int accelerometer = 0;
-  int gyro = 3;
-  int orientation = 6;
-  int joint_position = 10;
-  int joint_velocity = 22;
   int touch = 34;
-  int lidar_position = 38;
-  int lidar_orientation = 41;
-  int size = 45;
 };
 
 /// Compiles a model from text in memory. Throws EnvironmentError with MuJoCo's own message when it is refused.

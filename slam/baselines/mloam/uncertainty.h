@@ -7,11 +7,6 @@
 
 namespace plumbline::slam::mloam {
 
-/// Covariance of X_AB X_BC from those of both, all of increments on the left: Exp(xi) X, xi translation first. To the
-/// fourth order in the standard deviations [barfoot2014, section III-A].
-[[nodiscard]] Matrix6d compound_covariance(const Pose& X_AB, const Matrix6d& covariance_AB,
-                                           const Matrix6d& covariance_BC);
-
 /// Covariance in A of a point p_B that was measured with covariance_p, m^2, in a frame B whose pose has covariance_AB
 /// (of increments on the left) [jiao2022].
 [[nodiscard]] Eigen::Matrix3d point_covariance(const Pose& X_AB, const Matrix6d& covariance_AB,

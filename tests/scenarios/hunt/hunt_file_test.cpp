@@ -12,6 +12,7 @@
 #include "tests/data.h"
 #include "tests/folder.h"
 #include "tests/input_error.h"
+#include "tests/schema_example.h"
 
 namespace plumbline::scenarios {
 namespace {

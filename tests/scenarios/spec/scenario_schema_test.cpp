@@ -9,6 +9,7 @@
 #include "scenarios/spec/resolve.h"
 #include "tests/data.h"
 #include "tests/folder.h"
+#include "tests/schema_example.h"
 
 namespace plumbline::scenarios {
 namespace {

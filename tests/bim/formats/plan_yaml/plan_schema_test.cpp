@@ -5,6 +5,7 @@
 
 #include "bim/formats/plan_yaml/plan_yaml.h"
 #include "bim/mesh/mesh.h"
+#include "tests/schema_example.h"
 
 namespace plumbline::bim {
 namespace {

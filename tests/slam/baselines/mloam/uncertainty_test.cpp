@@ -39,31 +39,6 @@ Pose some_pose(double x, double yaw) {
   return X;
 }
 
-// The sum alone, of second order, would be off by several per cent where rotations are as uncertain as here.
-TEST(CompoundCovariance, IsThatOfAHundredThousandPoses) {
-  const Pose X_AB = some_pose(1.5, 0.7), X_BC = some_pose(-0.8, -1.1);
-  const Matrix6d S_AB = correlated(0.1, 0.25, 3), S_BC = correlated(0.15, 0.2, 4);
-  const Matrix6d L_AB = S_AB.llt().matrixL(), L_BC = S_BC.llt().matrixL();
-  const Stream one(5, "bim.generate"), two(6, "bim.generate");
-  const Pose X_CA = (X_AB * X_BC).inverse();
-  Matrix6d sum = Matrix6d::Zero();
-  for (int k = 0; k < samples; ++k) {
-    const Pose sampled = exp_se3(draw(L_AB, one, k)) * X_AB * exp_se3(draw(L_BC, two, k)) * X_BC;
-    const Vector6d xi = log_se3(sampled * X_CA);
-    sum += xi * xi.transpose();
-  }
-  const Matrix6d measured = sum / samples;
-  const Matrix6d found = compound_covariance(X_AB, S_AB, S_BC);
-  EXPECT_LT((found - measured).norm(), 0.02 * measured.norm());
-  EXPECT_LT((found - found.transpose()).norm(), 1e-12);
-}
-
-TEST(CompoundCovariance, OfSureMotionsIsTheOthers) {
-  const Matrix6d S = correlated(0.1, 0.1, 7);
-  EXPECT_LT((compound_covariance(Pose(), Matrix6d::Zero(), S) - S).norm(), 1e-15);
-  EXPECT_LT((compound_covariance(some_pose(1.0, 0.5), S, Matrix6d::Zero()) - S).norm(), 1e-15);
-}
-
 TEST(PointCovariance, IsThatOfAHundredThousandPoints) {
   const Pose X_AB = some_pose(1.5, 0.7);
   const Matrix6d S = correlated(0.05, 0.02, 8);
