@@ -12,6 +12,7 @@ constexpr std::string_view hunt_introduction = R"md(# Hunt files
 A hunt searches for failures that are a method's fault. `plumbline hunt HUNT` runs it; `plumbline hunt --schema` prints this page, which
 is made from the reader itself.
 
+- `scenarios` are files, relative to the hunt; the example here belongs beside the folder `library`.
 - The first runs lie all over the ranges, as a Latin hypercube [mckay1979], and take scenarios and families in turns. Each has a seed of
   its own. The others (`refine`) are drawn in generations of 8 near the worst runs so far, half of them with the same seed. Of
   runs that failed in one way at most two are drawn near to, so that the search does not end with one failure.

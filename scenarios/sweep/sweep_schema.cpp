@@ -12,7 +12,7 @@ constexpr std::string_view introduction = R"md(# Sweep files
 A sweep makes many runs and one table: scenarios x variants x starts x seeds, each run with all methods. `plumbline sweep
 SWEEP` runs it. `plumbline sweep --schema` prints this page, which is made from the reader itself.
 
-- `scenarios` are files. A variant replaces values in them (`set: [prior.yaw=known]`); `starts` replace their starts.
+- `scenarios` are files, relative to the sweep; the examples here belong beside the folder `library`. A variant replaces values in them (`set: [prior.yaw=known]`); `starts` replace their starts.
 - Runs of one seed that differ in `prior`, `methods`, `sensors` and `gates` only share one simulation. Each of them has, to the last
   bit, the scores that `plumbline run` gives.
 - `sensors: [all, lidar]` gives every method that can run with LiDAR alone a second row, `NAME.lidar`. A variant may set it

@@ -120,7 +120,7 @@ std::string in_ms(double ns) {
 
 std::string taken_in(std::size_t unit, double sweep_ns) {
   constexpr std::array<std::string_view, units_ns.size()> names = {"s", "ms", "us", "ns"};
-  return "point times are taken to be in " + std::string(names[unit]) + ", by which a sweep lasts " + in_ms(sweep_ns);
+  return "point times are taken to be in " + std::string(names[unit]) + ", by which a scan lasts " + in_ms(sweep_ns);
 }
 
 }  // namespace
@@ -290,7 +290,7 @@ AssumedTimes SweepLengthSearch::unit_found() const {
   }
   if (is_long && shares_ && from_stamp_) {
     found.times.unit_ns = spacing;
-    found.said = "point times from 0 to 1 are taken as shares of a sweep of " + in_ms(spacing) + apart;
+    found.said = "point times from 0 to 1 are taken as shares of a scan of " + in_ms(spacing) + apart;
     return found;
   }
   for (std::size_t i = 0; i < units_ns.size() && from_stamp_; ++i) {

@@ -58,7 +58,7 @@ TEST_F(AlteredWalk, TimesFromZeroToOneAreSharesOfASweep) {
   ASSERT_EQ(read_shares.assumed.size(), 1U);
   EXPECT_EQ(
       read_shares.assumed[0],
-      "/velodyne_points: point times from 0 to 1 are taken as shares of a sweep of 101 ms; clouds are 101 ms apart");
+      "/velodyne_points: point times from 0 to 1 are taken as shares of a scan of 101 ms; clouds are 101 ms apart");
   ASSERT_EQ(read_shares.frames.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(static_cast<double>(read_shares.frames[i].scan.stamp - plain.frames[i].scan.stamp), 0.0, 1e5);

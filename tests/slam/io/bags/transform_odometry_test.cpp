@@ -213,8 +213,8 @@ TEST(TransformOdometry, LeavesOutWhatWasRecordedAtNoPossibleTime) {
   const Walk walk = read_walk(said);
   EXPECT_EQ(walk.odometry.size(), all - 1);
   ASSERT_EQ(walk.left_out.size(), 1U);
-  EXPECT_EQ(walk.left_out[0], "/tf: 1 of " + std::to_string(all) +
-                                  " messages were recorded more than 126 years from 1970 and left out");
+  EXPECT_EQ(walk.left_out[0],
+            "/tf: 1 of " + std::to_string(all) + " messages were recorded more than 126 years from 1970 and left out");
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(CloudRecording, TakesTimesFromZeroToOneAsSharesOfAPeriod) {
   const auto recording = open_cloud_folder(folder.path());
   ASSERT_EQ(recording->assumed().size(), 2U);
   EXPECT_NE(recording->assumed().back().find("one each 0.1 s is assumed"), std::string::npos);
-  EXPECT_NE(recording->assumed().front().find("shares of a sweep of 100 ms"), std::string::npos);
+  EXPECT_NE(recording->assumed().front().find("shares of a scan of 100 ms"), std::string::npos);
   SensorFrame frame;
   for (int k = 0; k < 3; ++k) {
     ASSERT_TRUE(recording->next(frame)) << k;

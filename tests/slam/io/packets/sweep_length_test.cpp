@@ -26,7 +26,7 @@ double length_s(const PointCloud& cloud, const PointTimes& times) {
 
 TEST(SweepLength, SharesAreOfTheSpacing) {
   const AssumedTimes up = found(0.1, "time", PointType::f32, 0.0F, 1.0F);
-  EXPECT_NE(up.said.find("shares of a sweep of 100 ms"), std::string::npos) << up.said;
+  EXPECT_NE(up.said.find("shares of a scan of 100 ms"), std::string::npos) << up.said;
   EXPECT_NEAR(length_s(turn(20.0, "time", PointType::f32, 0.0F, 1.0F), up.times), 0.1, 1e-6);
   const AssumedTimes down = found(0.05, "timestamp", PointType::f64, -1.0, -0.001);
   EXPECT_NEAR(length_s(turn(20.0, "timestamp", PointType::f64, -1.0, -0.001), down.times), 0.05, 1e-3);
@@ -35,7 +35,7 @@ TEST(SweepLength, SharesAreOfTheSpacing) {
 TEST(SweepLength, WholeNumbersMayBeMicroseconds) {
   const AssumedTimes us = found<std::uint32_t>(0.1, "t", PointType::u32, 0, 99'000);
   EXPECT_EQ(us.times.unit_ns, 1e3) << us.said;
-  EXPECT_NE(us.said.find("in us, by which a sweep lasts 99 ms"), std::string::npos) << us.said;
+  EXPECT_NE(us.said.find("in us, by which a scan lasts 99 ms"), std::string::npos) << us.said;
   EXPECT_NEAR(length_s(turn<std::uint32_t>(20.0, "t", PointType::u32, 0, 99'000), us.times), 0.099, 1e-6);
   // Every fifth scan of such a bag.
   EXPECT_EQ((found<std::uint32_t>(0.5, "t", PointType::u32, 0, 99'000).times.unit_ns), 1e3);
@@ -57,9 +57,9 @@ TEST(SweepLength, WhatCanBeIsLeftAsItIs) {
 TEST(SweepLength, AUnitThatIsToldWithoutTheSpacingIsSaid) {
   const AssumedTimes us = found(0.1, "time", PointType::f32, 0.0F, 99'800.0F);
   EXPECT_EQ(us.times.unit_ns, 1e3);
-  EXPECT_EQ(us.said, "point times are taken to be in us, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
+  EXPECT_EQ(us.said, "point times are taken to be in us, by which a scan lasts 99.8 ms; clouds are 100 ms apart");
   const AssumedTimes ms = found(0.1, "t", PointType::f64, 0.0, 99.8);
-  EXPECT_EQ(ms.said, "point times are taken to be in ms, by which a sweep lasts 99.8 ms; clouds are 100 ms apart");
+  EXPECT_EQ(ms.said, "point times are taken to be in ms, by which a scan lasts 99.8 ms; clouds are 100 ms apart");
   // A cloud of which nearly all is missing has no length by which to tell it.
   EXPECT_NEAR(length_s(turn(20.0, "time", PointType::f32, 40'000.0F, 41'000.0F), us.times), 0.001, 1e-6);
   EXPECT_NEAR(length_s(turn(20.0, "t", PointType::f64, 40.0, 41.0), ms.times), 0.001, 1e-6);
