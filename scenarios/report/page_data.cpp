@@ -33,7 +33,7 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
   out.set("lost", column([](const ReportSample& s) { return Tree(s.lost ? 1 : 0); }));
   for (const ErrorKind& kind : error_kinds())
     out.set(std::string(kind.column), column([&](const ReportSample& s) {
-              const std::optional<double> value = kind.value(s);
+              const std::optional<double> value = s.judged ? kind.value(s) : std::nullopt;
               return value ? Tree(rounded(*value, 10000.0)) : Tree();
             }));
   return out;
@@ -94,7 +94,9 @@ Tree plots(const ReportInput& input, double end_s) {
 
 std::string script_data(const ReportInput& input, double end_s) {
   Tree tracks = Tree::map();
-  tracks.set("truth", track(input.truth, false));
+  // Without a truth the maps follow the estimate.
+  const bool has_truth = !input.truth.empty() || input.methods.empty();
+  tracks.set("truth", track(has_truth ? input.truth : input.methods.front().samples, false));
   for (const auto& method : input.methods)
     if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
   Tree states = Tree::map();
