@@ -63,7 +63,10 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
   extras.max = 104.0;  // %, so that a curve along 100 stays whole
   extras.title = "share of the belief, %";
   const Tree* results = results_of(input, method.name);
-  if (const auto at = number_of(results == nullptr ? nullptr : results->find("localization"), "converged_at_s"))
+  const Tree* localization = results == nullptr ? nullptr : results->find("localization");
+  if (method.converged_s)
+    extras.marks.push_back({*method.converged_s, "converged"});
+  else if (const auto at = number_of(localization, "converged_at_s"))
     extras.marks.push_back({start_s(input) + *at, "converged"});
   std::stable_sort(extras.marks.begin(), extras.marks.end(),
                    [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });

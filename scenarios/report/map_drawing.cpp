@@ -143,9 +143,16 @@ std::string draw_kidnap(const ReportInput& input, int storey) {
   return out;
 }
 
-std::string robot_mark(const std::string& name, int storey, const std::string& fill) {
+/// An arrow ahead; on maps of more than a building larger than the robot.
+std::string arrow_of(double scale) {
+  if (scale == 1.0) return "M.36 0L-.22 -.2L-.12 0L-.22 .2Z";
+  const auto at = [&](double x, double y) { return svg::number(scale * x) + " " + svg::number(scale * y); };
+  return "M" + at(0.36, 0.0) + "L" + at(-0.22, -0.2) + "L" + at(-0.12, 0.0) + "L" + at(-0.22, 0.2) + "Z";
+}
+
+std::string robot_mark(const std::string& name, int storey, const std::string& fill, double scale) {
   return "<path class=\"robot\" data-robot=\"" + svg::escape(name) + "\" data-storey=\"" + std::to_string(storey) +
-         "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"var(--room)\" stroke-width=\".04\"/>";
+         "\" d=\"" + arrow_of(scale) + "\" fill=\"" + fill + "\" stroke=\"var(--room)\" stroke-width=\".04\"/>";
 }
 
 /// Rooms of the method are right or wrong only where rooms of the building are known.
@@ -161,7 +168,7 @@ std::string draw_structure(const ReportMethod& method, int storey, bool rooms_kn
   return out;
 }
 
-std::string draw_method(const ReportMethod& method, int storey, bool rooms_known) {
+std::string draw_method(const ReportMethod& method, int storey, bool rooms_known, double mark_scale) {
   const std::string c = method_ink(method.ink);
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
@@ -170,7 +177,7 @@ std::string draw_method(const ReportMethod& method, int storey, bool rooms_known
   if (method.lost_drawn)
     out += draw_path(method.samples, storey, "class=\"path lost\" stroke=\"" + c + "\"", method.breaks, true);
   out += draw_path_by_error(method.samples, storey, method.breaks);
-  return out + robot_mark(method.name, storey, c) + "</g>";
+  return out + robot_mark(method.name, storey, c, mark_scale) + "</g>";
 }
 
 std::string draw_map(const ReportInput& input, const ReportStorey& storey, const MapBox& box) {
@@ -179,14 +186,15 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
   out +=
       open_map(box, (input.has_plan ? "floor plan" : "map") + (several ? " of " + storey.name : std::string()) +
                         (input.truth.empty() ? " with the estimated path" : " with the true and the estimated paths")) +
-      storey.ground + draw_plan(input, storey.index) + draw_deviations(storey.deviations);
+      draw_plan(input, storey.index) + storey.ground + draw_deviations(storey.deviations);
   const bool rooms_known = std::any_of(input.plan.rooms.begin(), input.plan.rooms.end(),
                                        [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
   for (const ReportMethod& method : input.methods)
-    if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known);
+    if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known, input.mark_scale);
   out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
          draw_kidnap(input, storey.index) +
-         (input.truth.empty() ? "" : robot_mark("truth", storey.index, "var(--truth)")) + draw_scale(box);
+         (input.truth.empty() ? "" : robot_mark("truth", storey.index, "var(--truth)", input.mark_scale)) +
+         draw_scale(box);
   return out + "</svg>";
 }
 
@@ -298,6 +306,7 @@ MapBox bounds(const ReportInput& input) {
       for (const auto& p : obstacle.outline_W) box.add(p);
   for (const auto& sample : input.truth) box.add({sample.x, sample.y});
   if (!input.has_plan) add_estimates(input, box);
+  for (const Eigen::Vector2d& p : input.extent) box.add(p);
   if (box.max.x() < box.min.x()) box.add(Eigen::Vector2d::Zero());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
   return {box.min - margin, box.max + margin};

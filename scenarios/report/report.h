@@ -113,8 +113,9 @@ struct ReportMethod {
   std::optional<double> failed_s = {};            ///< when it was first lost or far off, on the run's clock
   std::optional<SlipEpisode> slip = {};           ///< of the feet, within the second before
   std::vector<ReportWalls> recognised;
-  bool judged = true;       ///< which of its hypotheses and walls are right is known
-  bool lost_drawn = false;  ///< its path is drawn while it is lost, too, dotted
+  std::optional<double> converged_s = {};  ///< a mark; without it, by the results
+  bool judged = true;                      ///< which of its hypotheses and walls are right is known
+  bool lost_drawn = false;                 ///< its path is drawn while it is lost, too, dotted
   PathBreaks breaks = PathBreaks();
 };
 
@@ -143,6 +144,8 @@ struct ReportInput {
   std::vector<ReportMethod> methods;
   std::optional<ReportKidnap> kidnap;
   bool has_replay = false;                  ///< replay.html stands beside the page
+  std::vector<Eigen::Vector2d> extent;      ///< points that maps reach, too
+  double mark_scale = 1.0;                  ///< of the marks that stand for the robot
   bool has_plan = true;                     ///< a building is known and drawn
   std::string truth_name = "ground truth";  ///< what its line is called
 };
