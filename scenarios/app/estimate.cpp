@@ -210,6 +210,8 @@ EstimateDescription describe_given(const EstimateArguments& options, const slam:
   if (loaded.plan) {
     description.plan = name_of_path(options.plan);
     description.plan_furniture = loaded.furnished ? "as_planned" : "none";
+    for (std::size_t i = 0; i < loaded.plan->storeys.size(); ++i)
+      if (loaded.storey == loaded.plan->storeys[i].name) description.storey = loaded.drawing.plan.storeys[i].name;
   }
   const bool has_config =
       !options.config.empty() && row.configure && write_yaml(input.config) != write_yaml(row.configure({}));

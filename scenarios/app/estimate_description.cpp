@@ -25,7 +25,7 @@ Tree given_tree(const EstimateDescription& description, const slam::Recording& r
   if (input.plan) {
     tree.set("plan", description.plan).set("plan_furniture", description.plan_furniture);
     if (input.prior.yaw_W) tree.set("yaw_deg", to_hundredths(*input.prior.yaw_W * 180.0 / std::numbers::pi));
-    if (input.prior.storey) tree.set("storey", *input.prior.storey);
+    if (!description.storey.empty()) tree.set("storey", description.storey);
   }
   return tree.set("command", description.command);
 }

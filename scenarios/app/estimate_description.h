@@ -32,6 +32,7 @@ struct EstimateDescription {
   std::vector<std::string> warnings;             ///< that were printed, besides what was left out and assumed
   std::string recording, plan, command;          ///< names without their folders; plan empty: none
   std::string plan_furniture;                    ///< none or as_planned; empty without a plan
+  std::string storey;                            ///< of the prior, by its name; empty: unknown
   HeightSource height = HeightSource::description;
 };
 

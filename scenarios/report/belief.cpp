@@ -81,6 +81,13 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
          "Equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
 }
 
+std::string place_mark(const Eigen::Vector2d& at, double yaw, double mass) {
+  const double deg = yaw * 180.0 / std::numbers::pi;
+  return "<path class=\"heldplace\" d=\"M.5 0L-.3 -.28L-.16 0L-.3 .28Z\" transform=\"translate(" + svg::number(at.x()) +
+         " " + svg::number(-at.y()) + ") rotate(" + svg::number(-deg, 1) + ")\"><title>share " +
+         svg::number(100.0 * mass, 0) + " %</title></path>";
+}
+
 std::string draw_hypothesis(const ReportHypothesis& hypothesis, bool judged) {
   std::string out;
   for (const ReportMatch& match : hypothesis.walls) {
@@ -89,10 +96,7 @@ std::string draw_hypothesis(const ReportHypothesis& hypothesis, bool judged) {
     for (const ReportWall& face : match.faces) out += svg::line(face.p0, face.p1, "class=\"plannedwall\" " + stroke);
     out += svg::line(match.patch.p0, match.patch.p1, "class=\"seenwall\" " + stroke);
   }
-  const double deg = hypothesis.yaw * 180.0 / std::numbers::pi;
-  return out + "<path class=\"heldplace\" d=\"M.5 0L-.3 -.28L-.16 0L-.3 .28Z\" transform=\"translate(" +
-         svg::number(hypothesis.at.x()) + " " + svg::number(-hypothesis.at.y()) + ") rotate(" + svg::number(-deg, 1) +
-         ")\"><title>share " + svg::number(100.0 * hypothesis.mass, 0) + " %</title></path>";
+  return out + place_mark(hypothesis.at, hypothesis.yaw, hypothesis.mass);
 }
 
 std::string ring(const Eigen::Vector2d& at) {
@@ -170,8 +174,14 @@ std::optional<double> marginal_since(const ReportInput& input) {
 
 }  // namespace
 
+std::string draw_hypothesis_mark(const Pose& X_WR, double mass) {
+  const Eigen::Vector2d at = X_WR.t.head<2>();
+  return place_mark(at, X_WR.yaw(), mass) +
+         svg::text(at + Eigen::Vector2d(0.6, 0.2), svg::number(100.0 * mass, 0) + " %", "class=\"event\"");
+}
+
 std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
-  constexpr std::size_t longest = 12;  // of a room's name beside the plot
+  const std::size_t longest = method.judged ? 12 : 24;  // of a room's name beside the plot
   std::vector<PlotCurve> curves;
   bool true_is_named = false;
   int named = -1;  // the last hypothesis with a name beside the plot

@@ -173,6 +173,7 @@ std::string draw_method(const ReportMethod& method, int storey, bool rooms_known
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
   if (!method.localization) out += draw_structure(method, storey, rooms_known, c);
+  out += draw_path(method.corrected, storey, "class=\"path corrected\" stroke=\"" + c + "\"", method.breaks);
   out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"", method.breaks);
   if (method.lost_drawn)
     out += draw_path(method.samples, storey, "class=\"path lost\" stroke=\"" + c + "\"", method.breaks, true);
@@ -389,6 +390,8 @@ std::string map_key(const ReportInput& input) {
   key += item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") + found;
   if (std::any_of(input.methods.begin(), input.methods.end(), draws_lost))
     key += item("stroke=\"var(--m0)\" stroke-width=\"2\" stroke-dasharray=\"1 4\"", "while it reports LOST");
+  if (std::any_of(input.methods.begin(), input.methods.end(), [](const auto& m) { return !m.corrected.empty(); }))
+    key += item("stroke=\"var(--m0)\" stroke-width=\"5\" stroke-opacity=\".3\"", "path after the last optimisation");
   key += "</div>";
   return input.truth.empty() ? key : key + error_key();
 }

@@ -113,6 +113,7 @@ struct ReportMethod {
   std::optional<double> failed_s = {};            ///< when it was first lost or far off, on the run's clock
   std::optional<SlipEpisode> slip = {};           ///< of the feet, within the second before
   std::vector<ReportWalls> recognised;
+  std::vector<ReportSample> corrected;     ///< the path after the last optimisation, where it is drawn, too
   std::optional<double> converged_s = {};  ///< a mark; without it, by the results
   bool judged = true;                      ///< which of its hypotheses and walls are right is known
   bool lost_drawn = false;                 ///< its path is drawn while it is lost, too, dotted

@@ -67,13 +67,19 @@ std::string localization_text(const MethodRecord& method, const std::vector<Stat
   return text + lost_text(spans);
 }
 
-/// "2 loops, 5 planes, 1 room" of what the method can find.
+/// " 2 loops closed." or nothing of a method that closes none.
+std::string loops_text(const slam::Estimate& estimate) {
+  if (!estimate.loops) return "";
+  return estimate.loops->empty() ? " No loop closed."
+                                 : " " + number_and(estimate.loops->size(), "loop", "loops") + " closed.";
+}
+
+/// "5 planes, 1 room" of what the method found.
 std::string found_text(const slam::Estimate& estimate) {
   std::string text;
   const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
     text += (text.empty() ? "" : ", ") + number_and(count, one, many);
   };
-  if (estimate.loops) add(estimate.loops->size(), "loop closed", "loops closed");
   if (!estimate.planes.empty()) add(estimate.planes.size(), "plane", "planes");
   if (!estimate.rooms.empty()) add(estimate.rooms.size(), "room", "rooms");
   if (!estimate.floors.empty()) add(estimate.floors.size(), "floor", "floors");
@@ -81,8 +87,7 @@ std::string found_text(const slam::Estimate& estimate) {
 }
 
 std::string slam_text(const MethodRecord& method, const std::vector<StateSpan>& spans) {
-  const bool has_final = !method.estimate.trajectory.empty();
-  const score::PathScore path = score::score_path(has_final ? method.estimate.trajectory : method.causal);
+  const score::PathScore path = score::score_path(method.causal);
   std::string text = "A path of " + svg::number(path.length_m, 1) + " m in " + at_time(path.duration_s);
   if (method.scans > 0) {
     text += "; " + std::to_string(method.causal.size()) + " of " +
@@ -97,6 +102,7 @@ std::string slam_text(const MethodRecord& method, const std::vector<StateSpan>& 
   }
   text += ".";
   if (const std::string found = found_text(method.estimate); !found.empty()) text += " Found: " + found + ".";
+  text += loops_text(method.estimate);
   return text + lost_text(spans);
 }
 

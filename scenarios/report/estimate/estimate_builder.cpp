@@ -11,6 +11,7 @@
 #include "scenarios/host/files.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/storey.h"
+#include "scenarios/report/belief.h"
 #include "scenarios/report/belief_builder.h"
 #include "scenarios/report/estimate/answer_sentence.h"
 #include "scenarios/report/estimate/map_points.h"
@@ -85,9 +86,10 @@ PathBreaks breaks_of(const std::vector<ReportSample>& samples, double interval_s
   return breaks;
 }
 
-std::vector<ReportSample> samples_of_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys) {
+std::vector<ReportSample> samples_of_path(const std::vector<slam::StampedPose>& poses, const EstimateFiles& files,
+                                          const std::vector<bim::PlanStorey>& storeys) {
   std::vector<ReportSample> samples;
-  for (const slam::StampedPose& pose : files.method.causal) {
+  for (const slam::StampedPose& pose : poses) {
     const Pose& X_FR = pose.X_FR;
     ReportSample& sample = samples.emplace_back();
     sample.t_s = slam::seconds(pose.stamp - files.scans.front());
@@ -114,6 +116,20 @@ std::vector<ReportSample> thinned_samples(const std::vector<ReportSample>& sampl
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (i % every == 0 || i + 1 == samples.size()) kept.push_back(samples[i]);
   return kept;
+}
+
+/// The path after the last optimisation, where it is another one than that first given.
+std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys,
+                                         std::size_t every) {
+  constexpr double least_m = 0.05;  // a line's width
+  const std::vector<slam::StampedPose>&given = files.method.causal, &corrected = files.method.estimate.trajectory;
+  bool differs = corrected.size() != given.size();
+  for (std::size_t i = 0; !differs && i < given.size(); ++i)
+    differs = (given[i].X_FR.t - corrected[i].X_FR.t).norm() > least_m;
+  if (!differs) return {};
+  std::vector<ReportSample> samples = samples_of_path(corrected, files, storeys);
+  for (ReportSample& sample : samples) sample.lost = false;
+  return thinned_samples(samples, every);
 }
 
 void add_found(const slam::Estimate& estimate, const std::vector<bim::PlanStorey>& storeys, ReportMethod& shown) {
@@ -207,8 +223,30 @@ void lay_map(const std::vector<Eigen::Vector3f>& map_F, ReportInput& input) {
     for (const Eigen::Vector3f& p : map_F)
       if (input.storeys.size() == 1 || score::storey_of_height(input.plan.storeys, p.z()) == storey.index)
         here.push_back(p);
-    storey.ground = draw_map_points(here, box, input.has_plan);
+    storey.ground += draw_map_points(here, box, input.has_plan);
   }
+}
+
+Tree path_numbers(const std::vector<slam::StampedPose>& poses) {
+  const score::PathScore path = score::score_path(poses);
+  Tree tree = Tree::map();
+  tree.set("poses", static_cast<std::int64_t>(path.poses)).set("duration_s", path.duration_s);
+  tree.set("length_m", path.length_m).set("vertical_m", path.vertical_m);
+  return path.straightness ? tree.set("straightness", *path.straightness) : tree;
+}
+
+/// Hypotheses at the end of a localization that has no single answer.
+bool mark_hypotheses(const MethodRecord& method, ReportInput& input) {
+  constexpr std::size_t most = 20;
+  if (method.beliefs.empty() || method.beliefs.back().state == slam::State::converged) return false;
+  std::vector<slam::Hypothesis> last = method.beliefs.back().hypotheses;
+  std::stable_sort(last.begin(), last.end(), [](const auto& a, const auto& b) { return a.mass > b.mass; });
+  last.resize(std::min(most, last.size()));
+  for (ReportStorey& storey : input.storeys)
+    for (const slam::Hypothesis& hypothesis : last)
+      if (score::storey_of_base(input.plan.storeys, hypothesis.X_WR.t.z()) == storey.index)
+        storey.ground += draw_hypothesis_mark(hypothesis.X_WR, hypothesis.mass);
+  return !last.empty();
 }
 
 /// What results.json has of a run: gates, and every number of the method.
@@ -220,12 +258,18 @@ Tree results_by_score(const EstimateFiles& files) {
       if (key != "plumbline" && key != "method" && key != "gates") numbers.set(key, value);
     if (const Tree* gates = files.scores.find("gates")) results.set("gates", *gates);
   } else if (!method.causal.empty()) {
-    const score::PathScore path = score::score_path(method.causal);
-    numbers.set("poses", static_cast<std::int64_t>(path.poses)).set("duration_s", path.duration_s);
-    numbers.set("length_m", path.length_m).set("vertical_m", path.vertical_m);
-    if (path.straightness) numbers.set("straightness", *path.straightness);
+    numbers.set("causal", path_numbers(method.causal));
+    if (!method.estimate.trajectory.empty()) numbers.set("final", path_numbers(method.estimate.trajectory));
   }
   return results.set("methods", Tree(Tree::Map{{method.name, std::move(numbers)}}));
+}
+
+/// Whether a method said so that was off by more than a metre; null or never off: nothing.
+std::string silence_sentence(const Tree* silence) {
+  const auto off = number_of(silence, "off_at_s"), said = number_of(silence, "said_after_s");
+  if (!off) return "";
+  return " Placed by its first pose it is off by more than a metre after " + svg::number(*off, 1) + " s" +
+         (said ? ", and reported LOST " + svg::number(*said, 1) + " s later." : ", and never reported LOST.");
 }
 
 /// "By the reference: ..." or nothing.
@@ -245,7 +289,7 @@ std::string reference_sentence(const Tree& scores) {
   if (!error) return "";
   text = "By the reference, aligned: position error " + metres(*error) + " rms";
   if (const auto over = number_of(causal, "rpe_1m_rmse_m")) text += ", " + metres(*over) + " over each metre";
-  return text + ".";
+  return text + "." + silence_sentence(scores.find("silence"));
 }
 
 }  // namespace
@@ -271,7 +315,7 @@ EstimatePage read_estimate_page(const std::string& dir) {
   shown.lost_drawn = true;
   if (files.scans.empty()) files.scans.push_back(0);
   page.spans = state_spans(method, files.scans);
-  std::vector<ReportSample> samples = samples_of_path(files, input.plan.storeys);
+  std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
   const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
   input.truth = lay_reference(files.reference, method, in_plan_frame, files.scans.front(), samples);
   for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
@@ -279,6 +323,7 @@ EstimatePage read_estimate_page(const std::string& dir) {
   shown.samples = thinned_samples(samples, page.thinned);
   shown.breaks = breaks_of(shown.samples, static_cast<double>(page.thinned) * usual_interval_s(files.scans));
   input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
+  shown.corrected = corrected_path(files, input.plan.storeys, page.thinned);
   add_found(method.estimate, input.plan.storeys, shown);
   if (method.localization) add_localization(files, input.plan, shown);
   for (const ReportState& state : shown.states)
@@ -287,6 +332,8 @@ EstimatePage read_estimate_page(const std::string& dir) {
   input.results = results_by_score(files);
   input.methods.push_back(std::move(shown));
   lay_map(method.estimate.map_F, input);
+  page.has_map = !method.estimate.map_F.empty();
+  page.has_marks = mark_hypotheses(method, input);
   constexpr double marks_across = 60.0;
   const MapBox box = bounds(input);
   input.mark_scale = std::max(1.0, (box.max - box.min).norm() / marks_across);

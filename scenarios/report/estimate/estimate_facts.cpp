@@ -44,9 +44,9 @@ std::string mount_text(const std::string& mount) {
 std::string height_text(const Tree* given) {
   const std::string height = fact_at(given, "lidar_height_m"), from = fact_at(given, "lidar_height_from");
   if (height.empty()) return "";
-  const std::string why = from == "scans"     ? ", measured by the first scans that show the floor"
-                          : from == "assumed" ? ", assumed: no scan of the first half minute shows a floor"
-                                              : ", as described";
+  const std::string why = from == "scans"     ? " (by the first scans that show it)"
+                          : from == "assumed" ? " (assumed: no scan shows a floor)"
+                                              : " (as described)";
   return height + " m above the floor" + why;
 }
 
@@ -89,7 +89,7 @@ EstimateFacts estimate_facts(const Tree& estimate) {
   add("not read", fact_at(input, "other_points"));
   add("kept back", degradation_text(estimate));
   add("mount of the LiDAR", mount_text(fact_at(input, "mount")));
-  add("LiDAR", height_text(given));
+  add("its height", height_text(given));
   const std::string odometry = fact_at(given, "odometry");
   add("odometry", odometry == "true" ? "read " + fact_at(input, "odometry") : odometry.empty() ? "" : "none");
   add("IMU", fact_at(input, "imu"));

@@ -25,16 +25,16 @@ std::string page_title(const EstimatePage& page) {
   return method_of(page).name + (page.facts.recording.empty() ? "" : " on " + page.facts.recording);
 }
 
-/// The state at the end, in the colour that the plots give it; green and red mean right and wrong, which is not known.
+/// The state at the end with the colour that plots give it. Green and red alone mean right and wrong, which is not
+/// known.
 std::string state_badge(const std::string& state) {
   if (state.empty()) return "";
   if (state == "crashed" || state == "no pose") return "<span class=\"badge bad\">" + state + "</span>";
-  if (state == followed_state) return "<span class=\"badge\">followed to the end</span>";
-  std::string ink = state;
+  std::string ink = state == followed_state ? "converged" : state;
   std::transform(ink.begin(), ink.end(), ink.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return "<span class=\"badge state\" style=\"background:var(--" + ink + ")\">" + svg::escape(state) +
-         " at the end</span>";
+  return "<span class=\"badge\"><i class=\"swatch\" style=\"background:var(--" + ink + ")\"></i>" + svg::escape(state) +
+         (state == followed_state ? " to the end</span>" : " at the end</span>");
 }
 
 std::string estimate_header(const EstimatePage& page) {
@@ -72,17 +72,16 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
   const ReportInput& input = page.input;
   const bool has_errors = !input.truth.empty();
   std::string ground;
-  const bool has_ground =
-      std::any_of(input.storeys.begin(), input.storeys.end(), [](const ReportStorey& s) { return !s.ground.empty(); });
   const auto swatch_of = [](const std::string& ink, const std::string& label) {
     return "<span><i class=\"swatch\" style=\"background:" + ink + "\"></i>" + label + "</span>";
   };
-  if (has_ground && input.has_plan)
+  if (page.has_map && input.has_plan)
     ground =
         swatch_of("color-mix(in srgb," + method_ink(0) + " 35%,transparent)", "upright surface in the method's map");
-  if (has_ground && !input.has_plan)
+  if (page.has_map && !input.has_plan)
     ground = swatch_of("var(--wall)", "upright surface in the method's map") +
              swatch_of("var(--thing)", "any other point of it, as of a floor");
+  if (page.has_marks) ground += "<span>arrow: hypothesis at the end, with its share</span>";
   if (page.thinned > 1) ground += "<span>one pose in " + std::to_string(page.thinned) + " is drawn</span>";
   return "<section class=\"card\">" + draw_maps(input, box) + map_key(input) +
          (ground.empty() ? "" : "<div class=\"key\">" + ground + "</div>") +

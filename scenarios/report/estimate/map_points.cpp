@@ -26,6 +26,11 @@ struct CellGrid {
   double cell_m = least_cell_m;
   int columns = 0, rows = 0;
   std::vector<Layers> cells;
+
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] Layers at(int column, int row) const { return cells[index(column, row)]; }
 };
 
 /// A floor and a ceiling fill two layers that lie apart, a wall fills several near each other: three of six.
@@ -61,9 +66,7 @@ CellGrid grid_of(const std::vector<Eigen::Vector3f>& points_F, const MapBox& box
                  y = std::floor((p.y() - grid.min.y()) / grid.cell_m);
     if (!(x >= 0.0 && y >= 0.0 && x < grid.columns && y < grid.rows)) continue;
     const double layer = std::clamp(std::floor((p.z() - lowest) / layer_m), 0.0, layers - 1.0);
-    const std::size_t at =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(x);
-    grid.cells[at] |= Layers{1} << static_cast<int>(layer);
+    grid.cells[grid.index(static_cast<int>(x), static_cast<int>(y))] |= Layers{1} << static_cast<int>(layer);
   }
   return grid;
 }
@@ -74,9 +77,8 @@ std::string strokes(const CellGrid& grid, bool upright) {
   for (int row = 0; row < grid.rows; ++row) {
     int start = -1;
     for (int column = 0; column <= grid.columns; ++column) {
-      const std::size_t at =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(column);
-      const bool is_kind = column < grid.columns && grid.cells[at] != 0 && is_upright(grid.cells[at]) == upright;
+      const bool is_kind =
+          column < grid.columns && grid.at(column, row) != 0 && is_upright(grid.at(column, row)) == upright;
       if (is_kind && start < 0) start = column;
       if (is_kind || start < 0) continue;
       d += "M" + std::to_string(start) + " " + std::to_string(-row) + "h" + std::to_string(column - start);

@@ -46,7 +46,7 @@ TEST(AnswerSentence, OfSlamSaysWhatItFollowedAndFound) {
   method.estimate.rooms.resize(1);
   EXPECT_EQ(answer_sentence(method, {{0.0, 8.0, "followed"}, {8.0, 11.0, "LOST"}}),
             "A path of 5 m in 10 s; 11 of 12 scans have a pose, LOST at 3 (25 %), 6 (50 %) leave a direction of the "
-            "pose open. Found: 1 loop closed, 4 planes, 1 room. It reported LOST from 8 s to the end.");
+            "pose open. Found: 4 planes, 1 room. 1 loop closed. It reported LOST from 8 s to the end.");
 }
 
 TEST(AnswerSentence, NamesAFewLostSpans) {

@@ -32,7 +32,7 @@ TEST(EstimateFacts, AreReadInWords) {
   EXPECT_EQ(value_of(facts, "of these"), "16 rings, points with times");
   EXPECT_EQ(value_of(facts, "kept back"), "one scan in 2; without rings, times");
   EXPECT_EQ(value_of(facts, "mount of the LiDAR"), "from /tf_static");
-  EXPECT_EQ(value_of(facts, "LiDAR"), "0.7 m above the floor, measured by the first scans that show the floor");
+  EXPECT_EQ(value_of(facts, "its height"), "0.7 m above the floor (by the first scans that show it)");
   EXPECT_EQ(value_of(facts, "odometry"), "read /odom");
   EXPECT_EQ(value_of(facts, "it got"), "LiDAR alone");
   EXPECT_EQ(value_of(facts, "furniture in the plan"), "as planned");

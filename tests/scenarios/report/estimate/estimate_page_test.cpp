@@ -32,6 +32,7 @@ EstimatePage slam_page() {
   input.results = Tree::map().set("methods", Tree(Tree::Map{{"m", Tree::map().set("length_m", 2.45)}}));
   page.spans = {{0.0, 4.0, "followed"}, {4.0, 4.9, "LOST"}};
   page.state = "LOST";
+  page.has_map = true;
   page.answer = "A path <of> 2.45 m.";
   page.facts.recording = "walk <b>\"x\"</b>.bag";
   page.facts.command = "plumbline estimate 'a & b'";
@@ -87,7 +88,7 @@ TEST(EstimatePage, DrawsTheMapAndWhereItWasLost) {
   EXPECT_EQ(occurrences(page, "class=\"path\""), 1U);
   EXPECT_EQ(occurrences(page, "class=\"path lost\""), 1U);
   EXPECT_NE(page.find("while it reports LOST"), std::string::npos);
-  EXPECT_NE(page.find("background:var(--lost)\">LOST at the end"), std::string::npos);
+  EXPECT_NE(page.find("background:var(--lost)\"></i>LOST at the end"), std::string::npos);
   EXPECT_EQ(page.find("wall of the building"), std::string::npos);
   EXPECT_NE(page.find("id=\"scans\""), std::string::npos);
   EstimatePage even = slam_page();

@@ -16,7 +16,7 @@ std::vector<slam::StampedPose> bent_path(int poses) {
   Pose X;
   for (int i = 0; i < poses; ++i) {
     path.push_back({i * scan_ns, X});
-    X = X * Pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ())), {0.1, 0.0, 0.0});
+    X = X * Pose::from_xyz_yaw({0.1, 0.0, 0.0}, 0.05);
   }
   return path;
 }
@@ -26,7 +26,7 @@ std::vector<slam::StampedPose> moved_path(const Pose& X, std::vector<slam::Stamp
   return path;
 }
 
-const Pose elsewhere(Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ())), {500.0, -30.0, 2.0});
+const Pose elsewhere = Pose::from_xyz_yaw({500.0, -30.0, 2.0}, 1.0);
 
 TEST(ReferenceErrors, AreAfterTheAlignmentOfAMap) {
   MethodRecord method;
