@@ -317,7 +317,8 @@ EstimatePage read_estimate_page(const std::string& dir) {
   page.spans = state_spans(method, files.scans);
   std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
   const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
-  input.truth = lay_reference(files.reference, method, in_plan_frame, files.scans.front(), samples);
+  input.truth =
+      lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
   for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
   page.thinned = samples.size() / most_samples + 1;
   shown.samples = thinned_samples(samples, page.thinned);

@@ -33,7 +33,7 @@ std::vector<double> distances_to(const std::vector<score::PosePair>& pairs, std:
 }  // namespace
 
 std::vector<ReportSample> lay_reference(const std::vector<slam::StampedPose>& reference, const MethodRecord& method,
-                                        bool in_plan_frame, slam::Nanoseconds origin,
+                                        bool in_plan_frame, const ScanRange& scans,
                                         std::vector<ReportSample>& samples) {
   const score::ReferenceRules rules;
   if (reference.empty() || method.causal.empty() || samples.size() != method.causal.size()) return {};
@@ -53,11 +53,10 @@ std::vector<ReportSample> lay_reference(const std::vector<slam::StampedPose>& re
     sample.relative_m = relative[i];
   }
   std::vector<ReportSample> shown;
-  constexpr slam::Nanoseconds beside = 1'000'000'000;  // before and after the estimate
   for (const slam::StampedPose& pose : reference) {
-    if (pose.stamp < method.causal.front().stamp - beside || pose.stamp > method.causal.back().stamp + beside) continue;
+    if (pose.stamp < scans.first || pose.stamp > scans.last) continue;
     const Pose X_FR = shown_X_FW * pose.X_FR;
-    shown.push_back({slam::seconds(pose.stamp - origin), X_FR.t.x(), X_FR.t.y(), X_FR.yaw()});
+    shown.push_back({slam::seconds(pose.stamp - scans.first), X_FR.t.x(), X_FR.t.y(), X_FR.yaw()});
   }
   return shown;
 }

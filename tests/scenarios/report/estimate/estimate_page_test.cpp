@@ -75,7 +75,7 @@ TEST(EstimatePage, SaysNothingOfATruthThatIsNotKnown) {
   for (const EstimatePage& made : {slam_page(), localized_page()}) {
     const std::string page = render_estimate(made);
     const std::string body = page.substr(page.find("<body>"), page.find("<script") - page.find("<body>"));
-    for (const char* word : {"truth\"", "true p", "ground truth", "right", "wrong", "PASS", "verdict", "cm off"})
+    for (const char* word : {"truth\"", "true p", "ground truth", " right", "wrong", "PASS", "verdict", "cm off"})
       EXPECT_EQ(body.find(word), std::string::npos) << word;
     EXPECT_NE(body.find("no reference has been given"), std::string::npos);
     EXPECT_EQ(occurrences(body, "errorpath"), 2U);  // of the style

@@ -10,6 +10,8 @@ namespace {
 
 constexpr slam::Nanoseconds scan_ns = 100'000'000;
 
+constexpr ScanRange all_scans{0, 100 * scan_ns};
+
 /// A path that bends, 0.1 m a scan.
 std::vector<slam::StampedPose> bent_path(int poses) {
   std::vector<slam::StampedPose> path;
@@ -33,7 +35,8 @@ TEST(ReferenceErrors, AreAfterTheAlignmentOfAMap) {
   method.causal = bent_path(60);
   std::vector<ReportSample> samples(60);
   for (ReportSample& sample : samples) sample.judged = false;
-  const std::vector<ReportSample> laid = lay_reference(moved_path(elsewhere, bent_path(60)), method, false, 0, samples);
+  const std::vector<ReportSample> laid =
+      lay_reference(moved_path(elsewhere, bent_path(60)), method, false, all_scans, samples);
   ASSERT_EQ(laid.size(), 60U);
   for (std::size_t i = 0; i < 60; ++i) {
     EXPECT_TRUE(samples[i].judged);
@@ -52,7 +55,7 @@ TEST(ReferenceErrors, InThePlansFrameAreNotAligned) {
   std::vector<ReportSample> samples(30);
   Pose aside;
   aside.t = {0.0, 0.4, 0.0};
-  (void)lay_reference(moved_path(aside, bent_path(30)), method, true, 0, samples);
+  (void)lay_reference(moved_path(aside, bent_path(30)), method, true, all_scans, samples);
   EXPECT_NEAR(samples[12].error_m, 0.4, 1e-9);
   EXPECT_NEAR(samples[12].error_W.y(), -0.4, 1e-9);
 }
@@ -64,7 +67,7 @@ TEST(ReferenceErrors, AreWhereTheReferenceHasPoses) {
   for (ReportSample& sample : samples) sample.judged = false;
   std::vector<slam::StampedPose> half = bent_path(60);
   half.resize(30);
-  (void)lay_reference(half, method, false, 0, samples);
+  EXPECT_EQ(lay_reference(half, method, false, {10 * scan_ns, 100 * scan_ns}, samples).size(), 20U);
   EXPECT_TRUE(samples[29].judged);
   EXPECT_FALSE(samples[31].judged);
 }
@@ -74,10 +77,10 @@ TEST(ReferenceErrors, AreNoneWithoutAReferenceOfThatTime) {
   method.causal = bent_path(20);
   std::vector<ReportSample> samples(20);
   samples[3].judged = false;
-  EXPECT_TRUE(lay_reference({}, method, false, 0, samples).empty());
+  EXPECT_TRUE(lay_reference({}, method, false, all_scans, samples).empty());
   std::vector<slam::StampedPose> later = bent_path(20);
   for (slam::StampedPose& pose : later) pose.stamp += 3600'000'000'000;
-  EXPECT_TRUE(lay_reference(later, method, false, 0, samples).empty());
+  EXPECT_TRUE(lay_reference(later, method, false, all_scans, samples).empty());
   EXPECT_FALSE(samples[3].judged);
 }
 
