@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -14,65 +13,16 @@
 #include "scenarios/report/belief.h"
 #include "scenarios/report/belief_builder.h"
 #include "scenarios/report/estimate/answer_sentence.h"
+#include "scenarios/report/estimate/estimate_files.h"
 #include "scenarios/report/estimate/map_points.h"
-#include "scenarios/report/estimate/plan_drawing.h"
 #include "scenarios/report/estimate/reference_errors.h"
 #include "scenarios/report/hypothesis_history.h"
-#include "scenarios/report/results.h"
-#include "scenarios/report/svg.h"
-#include "scenarios/run/run_files.h"
-#include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
 
 namespace {
 
 constexpr std::size_t most_samples = 5000;  // of a path as drawn
-
-/// The files of an estimate.
-struct EstimateFiles {
-  MethodRecord method;
-  EstimateFacts facts;
-  std::vector<slam::Nanoseconds> scans;  ///< on the recording's clock
-  std::optional<PlanDrawing> plan;
-  Tree scores;  ///< score.json; null where there is none
-  std::vector<slam::StampedPose> reference;
-};
-
-std::string text_of_file(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::exists(path, error) ? read_text_file(path) : std::string();
-}
-
-/// Stamps of the scans by the digests that each left; without them, of the answers.
-std::vector<slam::Nanoseconds> scan_stamps(const DigestLog& digests, const MethodRecord& method,
-                                           slam::Nanoseconds origin) {
-  std::set<slam::Nanoseconds> stamps;
-  for (const DigestEntry& entry : digests) stamps.insert(entry.tick + origin);
-  if (stamps.empty()) {
-    for (const slam::StampedPose& pose : method.causal) stamps.insert(pose.stamp);
-    for (const BeliefRecord& belief : method.beliefs) stamps.insert(belief.stamp);
-  }
-  return {stamps.begin(), stamps.end()};
-}
-
-EstimateFiles read_estimate_files(const std::string& dir) {
-  const std::vector<std::string> methods = estimates_in(dir);
-  if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
-  EstimateFiles files;
-  files.method = read_method(dir, methods.front());
-  const std::string yaml = dir + "/estimate.yaml", digests = dir + "/digests.csv";
-  files.facts = estimate_facts(read_yaml(read_text_file(yaml), yaml));
-  files.scans = scan_stamps(read_digests(read_text_file(digests), digests), files.method, files.facts.origin);
-  const std::string plan = dir + "/" + std::string(plan_drawing_name),
-                    reference = dir + "/" + std::string(reference_name);
-  if (const std::string text = text_of_file(plan); !text.empty()) files.plan = read_plan_drawing(text, plan);
-  const std::string scores = dir + "/score.json";
-  if (const std::string text = text_of_file(scores); !text.empty()) files.scores = read_json(text, scores);
-  if (const std::string text = text_of_file(reference); !text.empty())
-    files.reference = slam::read_tum(text, reference);
-  return files;
-}
 
 /// Paths of fast or slow sensors stay whole: what several usual steps do not reach is a jump.
 PathBreaks breaks_of(const std::vector<ReportSample>& samples, double interval_s) {
@@ -264,32 +214,48 @@ Tree results_by_score(const EstimateFiles& files) {
   return results.set("methods", Tree(Tree::Map{{method.name, std::move(numbers)}}));
 }
 
-/// Whether a method said so that was off by more than a metre; null or never off: nothing.
-std::string silence_sentence(const Tree* silence) {
-  const auto off = number_of(silence, "off_at_s"), said = number_of(silence, "said_after_s");
-  if (!off) return "";
-  return " Placed by its first pose it is off by more than a metre after " + svg::number(*off, 1) + " s" +
-         (said ? ", and reported LOST " + svg::number(*said, 1) + " s later." : ", and never reported LOST.");
+/// The plan that the method had, or none.
+void take_plan(EstimateFiles& files, ReportInput& input) {
+  input.has_plan = files.plan.has_value();
+  if (!files.plan) {
+    input.plan.storeys = {{}};
+    return;
+  }
+  input.plan = files.plan->plan;
+  input.obstacles = std::move(files.plan->obstacles);
+  input.flights = std::move(files.plan->flights);
 }
 
-/// "By the reference: ..." or nothing.
-std::string reference_sentence(const Tree& scores) {
-  if (!scores.is_map() || scores.find("reference") == nullptr) return "";
-  std::string text;
-  const auto metres = [](double m) { return m < 1.0 ? svg::number(100.0 * m, 1) + " cm" : svg::number(m, 2) + " m"; };
-  const Tree* localization = scores.find("localization");
-  if (const std::string verdict = text_of(scores, "verdict"); !verdict.empty()) {
-    text = "By the reference in the plan's frame: " + verdict;
-    if (const auto error = number_of(localization, "ape_rmse_m"))
-      text += ", position error " + metres(*error) + " rms from the convergence on";
-    return text + ".";
-  }
-  const Tree* causal = scores.find("causal");
-  const auto error = number_of(causal, "ate_aligned_rmse_m");
-  if (!error) return "";
-  text = "By the reference, aligned: position error " + metres(*error) + " rms";
-  if (const auto over = number_of(causal, "rpe_1m_rmse_m")) text += ", " + metres(*over) + " over each metre";
-  return text + "." + silence_sentence(scores.find("silence"));
+/// The paths of the method and of the reference. Returns one in how many poses of the method is drawn.
+std::size_t take_paths(const EstimateFiles& files, ReportInput& input, ReportMethod& shown) {
+  const MethodRecord& method = files.method;
+  std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
+  const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
+  input.truth =
+      lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
+  for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
+  input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
+  const std::size_t every = samples.size() / most_samples + 1;
+  shown.samples = thinned_samples(samples, every);
+  shown.breaks = breaks_of(shown.samples, static_cast<double>(every) * usual_interval_s(files.scans));
+  shown.corrected = corrected_path(files, input.plan.storeys, every);
+  return every;
+}
+
+/// The method as maps and plots show it.
+ReportMethod take_method(const EstimateFiles& files, EstimatePage& page) {
+  ReportInput& input = page.input;
+  ReportMethod shown;
+  shown.name = files.method.name;
+  shown.localization = files.method.localization;
+  shown.judged = false;
+  shown.lost_drawn = true;
+  page.thinned = take_paths(files, input, shown);
+  add_found(files.method.estimate, input.plan.storeys, shown);
+  if (shown.localization) add_localization(files, input.plan, shown);
+  for (const ReportState& state : shown.states)
+    if (!shown.converged_s && state.state == slam::State::converged) shown.converged_s = state.t_s;
+  return shown;
 }
 
 }  // namespace
@@ -297,42 +263,18 @@ std::string reference_sentence(const Tree& scores) {
 EstimatePage read_estimate_page(const std::string& dir) {
   EstimateFiles files = read_estimate_files(dir);
   const MethodRecord& method = files.method;
+  const bool knows_scans = !files.scans.empty();
+  if (!knows_scans) files.scans.push_back(0);  // of a method that crashed before its first
   EstimatePage page;
   ReportInput& input = page.input;
-  input.has_plan = files.plan.has_value();
   input.truth_name = "reference";
-  if (files.plan) {
-    input.plan = files.plan->plan;
-    input.obstacles = std::move(files.plan->obstacles);
-    input.flights = std::move(files.plan->flights);
-  } else {
-    input.plan.storeys = {{}};
-  }
-  ReportMethod shown;
-  shown.name = method.name;
-  shown.localization = method.localization;
-  shown.judged = false;
-  shown.lost_drawn = true;
-  if (files.scans.empty()) files.scans.push_back(0);
+  take_plan(files, input);
   page.spans = state_spans(method, files.scans);
-  std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
-  const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
-  input.truth =
-      lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
-  for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
-  page.thinned = samples.size() / most_samples + 1;
-  shown.samples = thinned_samples(samples, page.thinned);
-  shown.breaks = breaks_of(shown.samples, static_cast<double>(page.thinned) * usual_interval_s(files.scans));
-  input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
-  shown.corrected = corrected_path(files, input.plan.storeys, page.thinned);
-  add_found(method.estimate, input.plan.storeys, shown);
-  if (method.localization) add_localization(files, input.plan, shown);
-  for (const ReportState& state : shown.states)
-    if (!shown.converged_s && state.state == slam::State::converged) shown.converged_s = state.t_s;
-  input.storeys = shown_storeys(files, input.plan, shown.samples);
+  input.methods.push_back(take_method(files, page));
+  input.storeys = shown_storeys(files, input.plan, input.methods.front().samples);
   input.results = results_by_score(files);
-  input.methods.push_back(std::move(shown));
   lay_map(method.estimate.map_F, input);
+  page.has_numbers = files.scores.is_map() || !method.causal.empty();
   page.has_map = !method.estimate.map_F.empty();
   page.has_marks = mark_hypotheses(method, input);
   constexpr double marks_across = 60.0;
@@ -343,7 +285,9 @@ EstimatePage read_estimate_page(const std::string& dir) {
   page.by_reference = reference_sentence(files.scores);
   page.pauses = scan_pauses(files.scans);
   page.first_scan = files.scans.front();
-  for (const slam::Nanoseconds stamp : files.scans) page.scans_s.push_back(slam::seconds(stamp - files.scans.front()));
+  if (knows_scans)
+    for (const slam::Nanoseconds stamp : files.scans)
+      page.scans_s.push_back(slam::seconds(stamp - files.scans.front()));
   page.facts = std::move(files.facts);
   return page;
 }

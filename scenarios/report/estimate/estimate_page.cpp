@@ -38,7 +38,9 @@ std::string state_badge(const std::string& state) {
 }
 
 std::string estimate_header(const EstimatePage& page) {
-  std::string facts = std::to_string(page.scans_s.size()) + (page.scans_s.size() == 1 ? " scan" : " scans");
+  std::string facts = page.scans_s.empty()       ? "no scan"
+                      : page.scans_s.size() == 1 ? "1 scan"
+                                                 : std::to_string(page.scans_s.size()) + " scans";
   if (page.scans_s.size() > 1) {
     const double length_s = page.scans_s.back();
     facts += " · " + svg::number(length_s, 1) + " s";
@@ -68,9 +70,23 @@ std::string list_warnings(const EstimatePage& page) {
          "</ul></section>";
 }
 
+/// What the script of the report steers by. byerror: whether paths can be drawn by their error.
+std::string map_controls(bool byerror, bool shown) {
+  return std::string("<div class=\"controls\"") + (shown ? "" : " style=\"display:none\"") +
+         "><button id=\"play\" type=\"button\">Play</button>"
+         "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
+         "<span class=\"clock\" id=\"clock\"></span>" +
+         (byerror ? "<label><input type=\"checkbox\" id=\"byerror\"> error along the path</label>"
+                  : "<input type=\"checkbox\" id=\"byerror\" aria-label=\"error along the path\" hidden>") +
+         "</div>";
+}
+
 std::string map_card(const EstimatePage& page, const MapBox& box) {
   const ReportInput& input = page.input;
   const bool has_errors = !input.truth.empty();
+  if (!input.has_plan && !page.has_map && method_of(page).samples.empty())
+    return "<section class=\"card\"><p>There is no path and no map to draw.</p>" + map_controls(false, false) +
+           "</section>";
   std::string ground;
   const auto swatch_of = [](const std::string& ink, const std::string& label) {
     return "<span><i class=\"swatch\" style=\"background:" + ink + "\"></i>" + label + "</span>";
@@ -84,13 +100,8 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
   if (page.has_marks) ground += "<span>arrow: hypothesis at the end, with its share</span>";
   if (page.thinned > 1) ground += "<span>one pose in " + std::to_string(page.thinned) + " is drawn</span>";
   return "<section class=\"card\">" + draw_maps(input, box) + map_key(input) +
-         (ground.empty() ? "" : "<div class=\"key\">" + ground + "</div>") +
-         "<div class=\"controls\"><button id=\"play\" type=\"button\">Play</button>"
-         "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"0.1\" aria-label=\"time\">"
-         "<span class=\"clock\" id=\"clock\"></span>" +
-         (has_errors ? "<label><input type=\"checkbox\" id=\"byerror\"> error along the path</label>"
-                     : "<input type=\"checkbox\" id=\"byerror\" aria-label=\"error along the path\" hidden>") +
-         "</div></section>";
+         (ground.empty() ? "" : "<div class=\"key\">" + ground + "</div>") + map_controls(has_errors, true) +
+         "</section>";
 }
 
 std::string given_card(const EstimatePage& page) {
@@ -100,8 +111,9 @@ std::string given_card(const EstimatePage& page) {
                     svg::number(method.breaks.gap_s, 2) + "\"></p><h2>What it was made of</h2><dl class=\"given\">";
   for (const auto& [heading, value] : page.facts.given)
     out += "<dt>" + svg::escape(heading) + "</dt><dd>" + svg::escape(value) + "</dd>";
-  return out + "<dt>first scan at</dt><dd>" + slam::format_stamp(page.first_scan) +
-         " s; times here count from it</dd></dl></aside>";
+  if (!page.scans_s.empty())
+    out += "<dt>first scan at</dt><dd>" + slam::format_stamp(page.first_scan) + " s; times here count from it</dd>";
+  return out + "</dl></aside>";
 }
 
 /// Errors by the reference; those along the axes are of a frame that means nothing to a reader.
@@ -142,7 +154,7 @@ std::string render_estimate(const EstimatePage& page) {
       open_page(page_title(page)) + "<style>" + std::string(estimate_style()) + "</style>" + estimate_header(page);
   out += list_warnings(page) + "<div class=\"top\">" + map_card(page, box) + given_card(page) + "</div>\n";
   out += reference_errors(page, end_s) + draw_beliefs(input, box, end_s) + draw_scans(page) + "\n";
-  out += gates_table(input) + numbers_table(input) + how_to_repeat(page.facts) + "</main>\n";
+  out += gates_table(input) + (page.has_numbers ? numbers_table(input) : "") + how_to_repeat(page.facts) + "</main>\n";
   out += "<script type=\"application/json\" id=\"data\">" + script_data(input, end_s) + "</script>\n<script>";
   out += map_script();
   out += page_script();

@@ -28,6 +28,7 @@ struct EstimatePage {
   slam::Nanoseconds first_scan = 0;  ///< on the recording's clock
   std::vector<std::string> altered;  ///< files of the estimate that are not as they were written
   bool has_map = false;              ///< points of its map lie under the path
+  bool has_numbers = true;           ///< `input` has results of the method
   bool has_marks = false;            ///< hypotheses at the end are marked on the map
   std::size_t thinned = 1;           ///< one in so many poses is drawn
 };

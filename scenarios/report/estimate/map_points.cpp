@@ -55,7 +55,10 @@ CellGrid grid_of(const std::vector<Eigen::Vector3f>& points_F, const MapBox& box
   CellGrid grid;
   grid.min = box.min;
   grid.cell_m = cell_size(box);
-  const auto count = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / grid.cell_m))); };
+  const auto count = [&](double length) {
+    const double cells = std::ceil(length / grid.cell_m);
+    return cells >= 1.0 && cells <= most_cells ? static_cast<int>(cells) : most_cells;
+  };
   grid.columns = count(box.max.x() - box.min.x());
   grid.rows = count(box.max.y() - box.min.y());
   grid.cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);

@@ -142,7 +142,9 @@ TEST(EstimatePage, OfOneScanAndOfNoneCanBeMade) {
   made.spans.clear();
   for (std::size_t scans = 2; scans-- > 0;) {
     made.scans_s.assign(scans, 0.0);
-    EXPECT_NE(render_estimate(made).find(scans == 1 ? "1 scan<" : "0 scans<"), std::string::npos);
+    made.has_map = scans == 1;
+    EXPECT_EQ(render_estimate(made).find("no path and no map") == std::string::npos, scans == 1);
+    EXPECT_NE(render_estimate(made).find(scans == 1 ? "1 scan<" : "no scan<"), std::string::npos);
   }
 }
 
