@@ -372,7 +372,9 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
           .one_of({"none", "as_planned"});
   line.option("--config", options->config,
               "parameters of the method (YAML); plumbline methods --config NAME prints them");
-  line.option("-o,--out", options->out, "directory to write").takes("DIR").required();
+  line.option("-o,--out", options->out, "directory to write; its report.html shows what came out")
+      .takes("DIR")
+      .required();
   options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
                                     "compass: heading in the plan at the start [the recording's, else unknown]")

@@ -187,7 +187,7 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
   out +=
       open_map(box, (input.has_plan ? "floor plan" : "map") + (several ? " of " + storey.name : std::string()) +
                         (input.truth.empty() ? " with the estimated path" : " with the true and the estimated paths")) +
-      draw_plan(input, storey.index) + storey.ground + draw_deviations(storey.deviations);
+      draw_plan(input, storey.index) + storey.below_paths + draw_deviations(storey.deviations);
   const bool rooms_known = std::any_of(input.plan.rooms.begin(), input.plan.rooms.end(),
                                        [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
   for (const ReportMethod& method : input.methods)

@@ -125,7 +125,7 @@ struct ReportStorey {
   int index = 0;  ///< into Plan::storeys
   std::string name;
   std::vector<ReportDeviation> deviations;
-  std::string ground = {};  ///< SVG that lies under the plan: the points of a map
+  std::string below_paths = {};  ///< SVG over the plan and under the paths: the points of a map
 };
 
 /// A robot that was kidnapped: its last scan before and its first one after.

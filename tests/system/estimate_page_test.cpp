@@ -2,9 +2,11 @@
 // The real program writes a page of an estimate, and writes it again.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
+#include "bim/config/tree.h"
 #include "tests/occurrences.h"
 #include "tests/system/program.h"
 
@@ -67,6 +69,29 @@ TEST_F(EstimatePages, RepeatWithTheEstimate) {
   ASSERT_EQ(estimate("s_graphs_plus", {}, "slam_again").code, 0);
   EXPECT_TRUE(page("slam_again") == page("slam"));
   EXPECT_EQ(read_file(at("slam_again") + "/manifest.csv"), read_file(at("slam") + "/manifest.csv"));
+}
+
+TEST_F(EstimatePages, NameTheCommandThatMakesThemAgain) {
+  write_file(at("short.plan.yaml"), read_file(project_file("tests/system/short.plan.yaml")));
+  write_file(at("other values.yaml"), "max_range_m: 20\n");
+  const std::vector<std::string> localized = {
+      "--plan", at("short.plan.yaml"), "--yaw-deg", "58.5", "--storey", "ground", "--seed", "4", "--every",
+      "2",      "--plan-furniture",    "none"};
+  ASSERT_EQ(estimate("s_graph_localization", localized, "first_plan").code, 0);
+  const std::vector<std::string> plain = {"--config", at("other values.yaml"), "--without", "rings,times", "--sensors",
+                                          "lidar"};
+  ASSERT_EQ(estimate("kiss_icp", plain, "first_kiss").code, 0);
+  for (const char* name : {"first_plan", "first_kiss"}) {
+    const std::string yaml = read_file(at(name) + "/estimate.yaml");
+    std::string command = read_yaml(yaml, "estimate.yaml").find("given")->find("command")->as_string();
+    ASSERT_EQ(command.rfind("plumbline ", 0), 0U) << command;
+    command.replace(0, 9, std::getenv("PLUMBLINE_BINARY"));
+    fs::remove_all(at("again"));
+    ASSERT_EQ(std::system(("cd '" + folder_->path() + "' && " + command + " >again.log 2>&1").c_str()), 0)
+        << command << read_file(at("again.log"));
+    EXPECT_TRUE(page("again") == page(name)) << command;
+    EXPECT_EQ(read_file(at("again") + "/estimate.yaml"), yaml);
+  }
 }
 
 TEST_F(EstimatePages, SayWhatCameOut) {

@@ -173,7 +173,7 @@ void lay_map(const std::vector<Eigen::Vector3f>& map_F, ReportInput& input) {
     for (const Eigen::Vector3f& p : map_F)
       if (input.storeys.size() == 1 || score::storey_of_height(input.plan.storeys, p.z()) == storey.index)
         here.push_back(p);
-    storey.ground += draw_map_points(here, box, input.has_plan);
+    storey.below_paths += draw_map_points(here, box, input.has_plan);
   }
 }
 
@@ -195,7 +195,7 @@ bool mark_hypotheses(const MethodRecord& method, ReportInput& input) {
   for (ReportStorey& storey : input.storeys)
     for (const slam::Hypothesis& hypothesis : last)
       if (score::storey_of_base(input.plan.storeys, hypothesis.X_WR.t.z()) == storey.index)
-        storey.ground += draw_hypothesis_mark(hypothesis.X_WR, hypothesis.mass);
+        storey.below_paths += draw_hypothesis_mark(hypothesis.X_WR, hypothesis.mass);
   return !last.empty();
 }
 

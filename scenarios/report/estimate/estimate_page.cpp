@@ -87,20 +87,20 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
   if (!input.has_plan && !page.has_map && method_of(page).samples.empty())
     return "<section class=\"card\"><p>There is no path and no map to draw.</p>" + map_controls(false, false) +
            "</section>";
-  std::string ground;
+  std::string more_key;
   const auto swatch_of = [](const std::string& ink, const std::string& label) {
     return "<span><i class=\"swatch\" style=\"background:" + ink + "\"></i>" + label + "</span>";
   };
   if (page.has_map && input.has_plan)
-    ground =
+    more_key =
         swatch_of("color-mix(in srgb," + method_ink(0) + " 35%,transparent)", "upright surface in the method's map");
   if (page.has_map && !input.has_plan)
-    ground = swatch_of("var(--wall)", "upright surface in the method's map") +
-             swatch_of("var(--thing)", "any other point of it, as of a floor");
-  if (page.has_marks) ground += "<span>arrow: hypothesis at the end, with its share</span>";
-  if (page.thinned > 1) ground += "<span>one pose in " + std::to_string(page.thinned) + " is drawn</span>";
+    more_key = swatch_of("var(--wall)", "upright surface in the method's map") +
+               swatch_of("var(--thing)", "any other point of it, as of a floor");
+  if (page.has_marks) more_key += "<span>arrow: hypothesis at the end, with its share</span>";
+  if (page.thinned > 1) more_key += "<span>one pose in " + std::to_string(page.thinned) + " is drawn</span>";
   return "<section class=\"card\">" + draw_maps(input, box) + map_key(input) +
-         (ground.empty() ? "" : "<div class=\"key\">" + ground + "</div>") + map_controls(has_errors, true) +
+         (more_key.empty() ? "" : "<div class=\"key\">" + more_key + "</div>") + map_controls(has_errors, true) +
          "</section>";
 }
 

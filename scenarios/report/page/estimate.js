@@ -14,7 +14,7 @@
     else {
       text += "x " + track.x[k].toFixed(2) + " m, y " + track.y[k].toFixed(2) + " m, heading " +
         (track.yaw[k] * 180 / Math.PI).toFixed(0) + "°";
-      if (track.e[k] !== null) text += ", " + (100 * track.e[k]).toFixed(1) + " cm from the reference";
+      if (track.e && track.e[k] !== null) text += ", " + (100 * track.e[k]).toFixed(1) + " cm from the reference";
       if (track.lost[k] === 1 && state !== "LOST") state = "LOST";
     }
     now.textContent = text + (state ? ", " + state : "");
