@@ -2,6 +2,7 @@
 #include "scenarios/app/estimate_command.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "bim/config/tree.h"
 #include "scenarios/host/terminal.h"

@@ -2,7 +2,8 @@
 #include "scenarios/report/estimate/answer_sentence.h"
 
 #include <algorithm>
-#include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/state_names.h"

@@ -2,7 +2,6 @@
 #include "scenarios/report/estimate/map_points.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -2,6 +2,8 @@
 #include "scenarios/report/estimate/plan_drawing.h"
 
 #include <cmath>
+#include <initializer_list>
+#include <string>
 #include <utility>
 
 #include "bim/config/tree.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/report/estimate/reference_errors.h"
 
+#include <optional>
+#include <utility>
+
 #include "scenarios/metrics/reference_axes.h"
 #include "scenarios/metrics/reference_score.h"
 
