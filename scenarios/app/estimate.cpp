@@ -17,8 +17,9 @@
 #include "bim/plan/plan.h"
 #include "bim/random/stream.h"
 #include "scenarios/app/commands.h"
-#include "scenarios/app/degradation_options.h"
 #include "scenarios/app/degraded_recording.h"
+#include "scenarios/app/estimate_command.h"
+#include "scenarios/app/estimate_description.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/recording_check.h"
 #include "scenarios/app/recording_doubts.h"
@@ -29,6 +30,8 @@
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/state_names.h"
+#include "scenarios/report/estimate/estimate_builder.h"
+#include "scenarios/report/estimate/plan_drawing.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/run/run_files.h"
 #include "scenarios/run/run_pipeline.h"
@@ -45,22 +48,6 @@
 namespace plumbline::scenarios {
 
 namespace {
-
-struct EstimateArguments {
-  RecordingArguments input;
-  std::string method;
-  std::string plan;
-  std::string plan_furniture = "as_planned";
-  std::string config;
-  std::string sensors = "all";
-  DegradationOptions degradation;
-  std::string out;
-  std::uint64_t seed = 1;
-  double yaw_deg = 0.0;
-  std::string storey;
-  bool force = false, unchecked = false;
-  std::optional<Argument> seed_option, yaw_option, furniture_option, sensors_option;
-};
 
 /// The method asked for, whose name may say .lidar as in a scenario.
 MethodChoice find_choice(const EstimateArguments& options, slam::MethodTable table) {
@@ -89,6 +76,8 @@ struct LoadedPlan {
   std::shared_ptr<const bim::Plan> plan;
   std::optional<Eigen::Vector3d> moved_by;  ///< see bim::Building
   std::optional<std::string> storey;        ///< that of the prior, as the plan calls it
+  bool furnished = true;                    ///< it has furniture as planned, where there is any
+  PlanDrawing drawing;                      ///< for the page
 };
 
 /// The plan, with the furniture that the run's methods were told of, or as --plan-furniture says. The storey that
@@ -105,7 +94,7 @@ LoadedPlan load_plan(const EstimateArguments& options, const slam::MethodRow& ro
   const RunBuilding building(load_site(options.plan, scenario), none ? ToldFurniture::none : ToldFurniture::as_planned);
   const auto plan = std::make_shared<bim::Plan>(*building.plan_as_planned());
   for (bim::PlanRoom& room : plan->rooms) room.name = bim::room_name(building.as_planned().rooms, room.name);
-  LoadedPlan loaded{plan, building.as_planned().moved_by, {}};
+  LoadedPlan loaded{plan, building.as_planned().moved_by, {}, !none, plan_drawing(building.as_planned(), *plan)};
   const std::optional<std::string> named =
       options.storey.empty() ? slam::prior_of(info).storey : std::optional(options.storey);
   if (!named) return loaded;
@@ -157,9 +146,9 @@ std::uint64_t run_seed(const EstimateArguments& options, const slam::RecordingIn
   return options.seed_option->given() ? options.seed : info.seed.value_or(options.seed);
 }
 
-/// moved_by: see LoadedPlan.
+/// loaded: the plan, where the method needs one.
 slam::MethodInput make_input(const EstimateArguments& options, const slam::MethodRow& row,
-                             const slam::Recording& recording, std::optional<Eigen::Vector3d>& moved_by) {
+                             const slam::Recording& recording, LoadedPlan& loaded) {
   const slam::RecordingInfo& info = recording.info();
   slam::MethodInput input;
   input.config = make_config(options, row);
@@ -170,9 +159,8 @@ slam::MethodInput make_input(const EstimateArguments& options, const slam::Metho
                          "' needs; --odometry gives it, and vgicp and s_graphs_plus do without");
   input.seed = method_seed(run_seed(options, info), seed_name(row));
   input.calibration = slam::calibration_of(info);
-  const LoadedPlan loaded = load_plan(options, row, info);
+  loaded = load_plan(options, row, info);
   input.plan = loaded.plan;
-  moved_by = loaded.moved_by;
   if (input.plan) {
     input.prior = make_prior(options, info, loaded);
     check_rooms(options, *input.plan, input.prior);
@@ -213,29 +201,22 @@ Answer run_method(slam::Recording& recording, const slam::MethodRow& row, const 
   return answer;
 }
 
-/// estimate.yaml: which walk the answer is of, and what it depends on besides recording and plan.
-std::string describe(const slam::MethodRow& row, std::uint64_t seed, const slam::Recording& recording,
-                     const slam::MethodInput& input, Sensors sensors, const Degradation& degradation,
-                     const ScansRead& scans, const std::optional<Eigen::Vector3d>& moved_by,
-                     const std::vector<std::string>& altered) {
-  const slam::RecordingInfo& info = recording.info();
-  Tree tree = Tree::map();
-  tree.set("estimate", 1).set("method", row.name).set("seed", static_cast<std::int64_t>(seed));
-  if (sensors != Sensors::all) tree.set("sensors", names_of(sensors)[static_cast<std::size_t>(sensors)]);
-  describe(degradation, tree);
-  const auto add = [&](const char* key, const std::vector<std::string>& sentences) {
-    Tree list = Tree::list();
-    for (const std::string& said : sentences) list.push(said);
-    if (!sentences.empty()) tree.set(key, list);
-  };
-  add("unchecked", altered);
-  add("left_out", recording.left_out());
-  add("assumed", recording.assumed());
-  tree.set("input", to_tree(recording.taken(), scans));
-  if (info.walk) tree.set("walk", *info.walk);
-  if (moved_by) tree.set("plan_moved_by_m", number_list(*moved_by));
-  if (!input.config.is_null()) tree.set("config", input.config);
-  return write_yaml(tree);
+/// What the command line gives, before anything is read of the recording.
+EstimateDescription describe_given(const EstimateArguments& options, const slam::MethodRow& row,
+                                   const LoadedPlan& loaded, const slam::MethodInput& input) {
+  EstimateDescription description;
+  description.method = row.name;
+  description.recording = name_of_path(options.input.recording);
+  if (loaded.plan) {
+    description.plan = name_of_path(options.plan);
+    description.plan_furniture = loaded.furnished ? "as_planned" : "none";
+    for (std::size_t i = 0; i < loaded.plan->storeys.size(); ++i)
+      if (loaded.storey == loaded.plan->storeys[i].name) description.storey = loaded.drawing.plan.storeys[i].name;
+  }
+  const bool has_config =
+      !options.config.empty() && row.configure && write_yaml(input.config) != write_yaml(row.configure({}));
+  description.command = repeating_command(options, has_config);
+  return description;
 }
 
 /// The table with the process that --method gives, if it does.
@@ -245,7 +226,73 @@ std::optional<ProcessTable> take_process(EstimateArguments& options, slam::Metho
   check_program(process->command, *process->folder, {"--method", 0, 0});
   process->plan = !options.plan.empty();
   options.method = process->name;
+  options.is_process = true;
   return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});
+}
+
+/// The height of the LiDAR above the floor, set in the calibration, and what to say where it is assumed.
+HeightSource find_height(const EstimateArguments& options, const Degradation& degradation,
+                         const slam::RecordingInfo& info, slam::MethodInput& input,
+                         std::vector<std::string>& warnings) {
+  if (info.mount.height_m) return HeightSource::description;
+  const std::optional<double> height =
+      slam::height_over_floor(*degraded(open_any_recording(options.input), degradation), input.calibration, input.seed);
+  if (height) {
+    input.calibration.sensor_height_m = *height;
+    return HeightSource::scans;
+  }
+  warnings.push_back("no scan of the first half minute shows a floor: the LiDAR is taken to be " +
+                     format_number(input.calibration.sensor_height_m) +
+                     " m above it, as that of the simulated robot; --description gives the height");
+  print_note("plumbline: warning: " + options.input.recording + ": " + warnings.back());
+  return HeightSource::assumed;
+}
+
+void warn_of_moved_plan(const EstimateArguments& options, const LoadedPlan& loaded,
+                        std::vector<std::string>& warnings) {
+  if (!loaded.moved_by) return;
+  const std::string said = "coordinates are those of a map; poses are in W, to which it is moved by " +
+                           flow_text(number_list(*loaded.moved_by)) + " m";
+  print_note("plumbline: warning: " + options.plan + ": its " + said);
+  warnings.push_back("the plan's " + said);
+}
+
+/// Prints what to know of the recording that has been read, and adds to the warnings what estimate.yaml has not
+/// elsewhere.
+void warn_of_recording(const EstimateArguments& options, const slam::Recording& recording,
+                       const std::vector<std::string>& doubts, std::vector<std::string>& warnings) {
+  std::vector<std::string> all = warnings_of(recording);
+  const std::size_t elsewhere = recording.left_out().size() + recording.assumed().size();
+  all.insert(all.end(), doubts.begin(), doubts.end());
+  for (const std::string& said : all) print_note("plumbline: warning: " + options.input.recording + ": " + said);
+  warnings.insert(warnings.end(), all.begin() + static_cast<std::ptrdiff_t>(elsewhere), all.end());
+}
+
+/// Writes all but the timings. The page is made of the files, as `report` makes it.
+void write_answer(const std::string& dir, const MethodRecord& record, const LoadedPlan& loaded,
+                  const std::string& description) {
+  write_method(dir, record);
+  write_file(dir + "/digests.csv", write_digests(record.digests));
+  write_file(dir + "/estimate.yaml", description);
+  if (loaded.plan) write_file(dir + "/" + std::string(plan_drawing_name), write_plan_drawing(loaded.drawing));
+  write_estimate_page(dir);
+}
+
+void print_answer(const EstimateArguments& options, const slam::Recording& recording, const slam::MethodInput& input,
+                  HeightSource height, const Answer& answer) {
+  const MethodRecord& record = answer.record;
+  print(words_of(recording.taken(), answer.scans, recording.has_odometry()) + "\n");
+  if (height != HeightSource::description)
+    std::printf("LiDAR %.2f m above the floor, %s; --description gives it\n", input.calibration.sensor_height_m,
+                height == HeightSource::scans
+                    ? "by the first scans that show it"
+                    : "as of the simulated robot, since the scans of half a minute show no floor");
+  print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
+  if (record.lost_scans > 0) std::printf("LOST at %d of %d scans\n", record.lost_scans, record.scans);
+  if (!record.beliefs.empty())
+    std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
+                record.beliefs.back().hypotheses.size());
+  print("report: " + printable(options.out) + "/" + std::string(estimate_page_name) + "\n");
 }
 
 int estimate(EstimateArguments options, slam::MethodTable table) {
@@ -260,55 +307,31 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   refuse_altered(altered.folder, altered.files, options.unchecked);
   options.input.topics.point_times = !degradation.no_times;
   const std::unique_ptr<slam::Recording> recording = degraded(open_any_recording(options.input), degradation);
-  std::optional<Eigen::Vector3d> moved_by;
-  slam::MethodInput input = make_input(options, row, *recording, moved_by);
-  if (moved_by)
-    print_note("plumbline: warning: " + options.plan + ": " +
-               "its coordinates are those of a map; poses are in W, to which it is moved by " +
-               flow_text(number_list(*moved_by)) + " m");
-  const bool is_height_said = recording->info().mount.height_m.has_value();
-  const std::optional<double> height =
-      is_height_said ? std::nullopt
-                     : slam::height_over_floor(*degraded(open_any_recording(options.input), degradation),
-                                               input.calibration, input.seed);
-  if (height) input.calibration.sensor_height_m = *height;
-  if (!is_height_said && !height)
-    print_note("plumbline: warning: " + options.input.recording +
-               ": no scan of the first half minute shows a floor: the LiDAR is taken to be " +
-               format_number(input.calibration.sensor_height_m) +
-               " m above it, as that of the simulated robot; --description gives the height");
+  LoadedPlan loaded;
+  slam::MethodInput input = make_input(options, row, *recording, loaded);
+  EstimateDescription description = describe_given(options, row, loaded, input);
+  warn_of_moved_plan(options, loaded, description.warnings);
+  description.height = find_height(options, degradation, recording->info(), input, description.warnings);
+  description.seed = run_seed(options, recording->info());
+  description.sensors = choice.sensors;
+  description.degradation = degradation;
+  description.altered = altered.files;
 
   catch_interrupts();
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input, choice.sensors);
-  const MethodRecord& record = answer.record;
-  for (const std::string& said : warnings_of(*recording))
-    print_note("plumbline: warning: " + options.input.recording + ": " + said);
-  for (const std::string& said : answer.doubts)
-    print_note("plumbline: warning: " + options.input.recording + ": " + said);
-  write_method(directory.staging(), record);
-  write_file(directory.staging() + "/digests.csv", write_digests(record.digests));
-  write_file(directory.staging() + "/estimate.yaml",
-             describe(row, run_seed(options, recording->info()), *recording, input, choice.sensors, degradation,
-                      answer.scans, moved_by, altered.files));
+  warn_of_recording(options, *recording, answer.doubts, description.warnings);
+  description.scans = answer.scans;
+  write_answer(directory.staging(), answer.record, loaded, describe(description, *recording, input));
   write_file(
       directory.staging() + "/timings.json",
       write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1}));
   directory.commit();
-  if (record.crashed) {
-    print_note("plumbline: method '" + record.name + "' crashed: " + record.error);
+  if (answer.record.crashed) {
+    print_note("plumbline: method '" + answer.record.name + "' crashed: " + answer.record.error);
     return 1;
   }
-  print(words_of(recording->taken(), answer.scans, recording->has_odometry()) + "\n");
-  if (!is_height_said)
-    std::printf("LiDAR %.2f m above the floor, %s; --description gives it\n", input.calibration.sensor_height_m,
-                height ? "by the first scans that show it"
-                       : "as of the simulated robot, since the scans of half a minute show no floor");
-  print(printable(options.out) + "/" + record.name + ".tum: " + std::to_string(record.causal.size()) + " poses\n");
-  if (record.lost_scans > 0) std::printf("LOST at %d of %d scans\n", record.lost_scans, record.scans);
-  if (!record.beliefs.empty())
-    std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
-                record.beliefs.back().hypotheses.size());
+  print_answer(options, *recording, input, description.height, answer);
   return 0;
 }
 
@@ -349,7 +372,9 @@ Command add_estimate(CommandLine& program, slam::MethodTable table) {
           .one_of({"none", "as_planned"});
   line.option("--config", options->config,
               "parameters of the method (YAML); plumbline methods --config NAME prints them");
-  line.option("-o,--out", options->out, "directory to write").takes("DIR").required();
+  line.option("-o,--out", options->out, "directory to write; its report.html shows what came out")
+      .takes("DIR")
+      .required();
   options->seed_option = line.seed("--seed", options->seed, "seed of the run [the recording's, else 1]");
   options->yaw_option = line.option("--yaw-deg", options->yaw_deg,
                                     "compass: heading in the plan at the start [the recording's, else unknown]")

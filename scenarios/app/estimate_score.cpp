@@ -24,6 +24,7 @@
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
+#include "scenarios/report/estimate/estimate_builder.h"
 #include "scenarios/report/svg.h"
 #include "scenarios/run/run_files.h"
 #include "slam/io/bags/bag.h"
@@ -281,6 +282,15 @@ int judge(const std::vector<GateSpec>& gates, const std::string& method, const C
   return failed;
 }
 
+/// The reference for the page; without one, that of a score before goes.
+void write_reference(const std::string& dir, const Poses& reference) {
+  const std::string path = dir + "/" + std::string(reference_name);
+  if (reference.empty())
+    std::filesystem::remove(path);
+  else
+    write_file(path, slam::write_tum(reference));
+}
+
 }  // namespace
 
 bool is_estimate_directory(const std::string& dir) {
@@ -306,7 +316,7 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
   const MethodRecord method = read_method(dir, methods.front());
   remove_abandoned(dir);
-  const std::vector<std::string> altered = altered_files(dir, {{"score.json"}});
+  const std::vector<std::string> altered = altered_files(dir, {made_of_an_estimate()});
   refuse_altered(dir, altered, unchecked);
   if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
   if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
@@ -358,7 +368,9 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   std::string judged;
   const int failed = judge(gates, method.name, causal_covered, last_covered, tree, judged);
   write_file(dir + "/score.json", write_json(tree) + "\n");
-  renew_manifest(dir, {"score.json"});
+  write_reference(dir, reference);
+  write_estimate_page(dir, altered);
+  renew_manifest(dir, made_of_an_estimate());
 
   std::string text = method.name;
   if (method.scans > 0)
@@ -373,7 +385,8 @@ int score_estimate(const std::string& dir, const std::string& reference_text, co
   if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
   text += "\n" + line_of("causal", causal);
   if (last.path.poses > 0) text += line_of("final", last);
-  print(text + "scores: " + printable(dir) + "/score.json\n" + judged);
+  print(text + "scores: " + printable(dir) + "/score.json\nreport: " + printable(dir) + "/" +
+        std::string(estimate_page_name) + "\n" + judged);
   return failed == 0 ? 0 : 1;
 }
 

@@ -53,7 +53,7 @@ Outside read_estimate_directory(const std::string& dir, const std::string& name,
     throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
                                                   : "holds several estimates; give a directory of plumbline estimate");
   const std::vector<std::string> altered =
-      altered_files(dir, {{"score.json", "report.html", "junit.xml", "results.json"}, false});
+      altered_files(dir, {{"score.json", "reference.tum", "report.html", "junit.xml", "results.json"}, false});
   refuse_altered(dir, altered, unchecked);
   if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, run_dir, run);
   Outside outside{read_method(dir, methods.front()), {}, {}};

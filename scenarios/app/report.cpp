@@ -7,12 +7,14 @@
 #include "bim/config/printable.h"
 #include "bim/errors.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/estimate_score.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/interrupt.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
+#include "scenarios/report/estimate/estimate_builder.h"
 #include "scenarios/report/replay/replay_page.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/run/ground_truth_recorder.h"
@@ -46,7 +48,23 @@ ScanPacker simulate_scans(const std::string& dir, const FinishedRun& run) {
   return scans;
 }
 
+/// The page of an estimate again.
+int report_estimate(const ReportArguments& options) {
+  if (options.replay)
+    throw InputError({"--3d", 0, 0}, "is of run directories, whose scans can be simulated again; '" + options.dir +
+                                         "' is an estimate of a recording");
+  remove_abandoned(options.dir);
+  const std::string page(estimate_page_name);
+  const std::vector<std::string> altered = altered_files(options.dir, {{page}, false});
+  refuse_altered(options.dir, altered, options.unchecked);
+  write_estimate_page(options.dir, altered);
+  renew_manifest(options.dir, {page});
+  print("report: " + printable(options.dir) + "/" + page + "\n");
+  return 0;
+}
+
 int report(const ReportArguments& options) {
+  if (is_estimate_directory(options.dir)) return report_estimate(options);
   FinishedRun run = read_run(options.dir);
   remove_abandoned(options.dir);
   const std::vector<std::string> written_here = {"report.html", "replay.html"};
@@ -75,15 +93,19 @@ int report(const ReportArguments& options) {
 
 Command add_report(CommandLine& program) {
   const auto options = std::make_shared<ReportArguments>();
-  CommandLine line = program.add_command("report", "Writes report.html of a run again, and replay.html if asked");
-  line.option("DIR", options->dir, "run directory").takes("DIR").required();
-  line.flag("--3d", options->replay,
-            "also write replay.html, the run in three dimensions at any of its times; simulates its scans again");
+  CommandLine line = program.add_command(
+      "report", "Writes report.html of a run or an estimate again, and replay.html of a run if asked");
+  line.option("DIR", options->dir, "run directory, or directory that plumbline estimate wrote").takes("DIR").required();
+  line.flag(
+      "--3d", options->replay,
+      "of a run: also write replay.html, the run in three dimensions at any of its times; simulates its scans again");
   line.option("--size-mb", options->megabytes,
               "maximum size of replay.html; scans far from failures and events are left out until it fits [15]")
       .range(1.0, 1000.0);
   line.flag("--unchecked", options->unchecked, "takes files that were altered since they were written");
-  line.footer("Example: plumbline report --3d runs/quickstart-1");
+  line.footer(
+      "Example: plumbline report --3d runs/quickstart-1\n"
+      "         plumbline report estimates/street");
   return {line, [options] { return report(*options); }};
 }
 

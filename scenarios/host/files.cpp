@@ -121,13 +121,24 @@ constexpr std::array<FileRow, 12> recording_files = {{
     {"building.*", "the building that the scenario names", false},
 }};
 
-constexpr std::array<FileRow, 12> estimate_files = {{
-    {manifest_name, "a digest of every file as it was written; `score` compares them", false},
+constexpr std::array<FileRow, 15> estimate_files = {{
+    {"report.html",
+     "the page: answer, path on the plan or the map, states and hypotheses over time, what to know of the recording; "
+     "it "
+     "loads nothing from elsewhere; `score` and `report` write it again",
+     false},
+    {manifest_name, "a digest of every file as it was written; `score` and `report` compare them", false},
     {"estimate.yaml",
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
-     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean, `plan_moved_by_m` what "
+     "read, under `left_out` what was not, under `assumed` what its numbers were taken to mean, under `warnings` what "
+     "else was printed of it, under `given` names, prior and the command that makes it again, `plan_moved_by_m` what "
      "was added to the coordinates of a plan in map coordinates, under `unchecked` files of the "
      "recording that had been altered"},
+    {"plan.json",
+     "of a localization: walls, rooms, furniture and stairs of its plan as `report.html` draws them, m in W", false},
+    {"reference.tum",
+     "with `score --reference`: the reference as it was compared, in its own world frame, its axes those of the robot",
+     false},
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
      "reported LOST; under `localization` and `verdict` what a reference in the plan's frame (`frame=W`) says"},

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 4> state_colours = {"var(--searching)", "var(--ambiguous)", "var(--converged)",
                                                            "var(--lost)"};
 
-constexpr std::string_view right_colour = "var(--right)", wrong_colour = "var(--wrong)";
+constexpr std::string_view right_colour = "var(--right)", wrong_colour = "var(--wrong)", unjudged_colour = "var(--m0)";
 // Of places that are not the true one, apart from the colours of states and of right and wrong.
 constexpr std::array<std::string_view, 5> other_colours = {"var(--o0)", "var(--o1)", "var(--o2)", "var(--o3)",
                                                            "var(--o4)"};
@@ -50,8 +50,9 @@ std::string state_key() {
 /// Which hypotheses have no line of their own.
 std::string left_out(const ReportMethod& method) {
   if (method.hypotheses_left_out == 0) return "";
-  return "Lines of their own have the true pose and those with the largest share over the run; the other " +
-         std::to_string(method.hypotheses_left_out) + " are one grey line together. ";
+  return std::string("Lines of their own have ") + (method.judged ? "the true pose and " : "") +
+         "those with the largest share over the run; the other " + std::to_string(method.hypotheses_left_out) +
+         " are one grey line together. ";
 }
 
 std::string chart(const ReportInput& input, const ReportMethod& method, double end_s) {
@@ -62,30 +63,40 @@ std::string chart(const ReportInput& input, const ReportMethod& method, double e
   extras.max = 104.0;  // %, so that a curve along 100 stays whole
   extras.title = "share of the belief, %";
   const Tree* results = results_of(input, method.name);
-  if (const auto at = number_of(results == nullptr ? nullptr : results->find("localization"), "converged_at_s"))
+  const Tree* localization = results == nullptr ? nullptr : results->find("localization");
+  if (method.converged_s)
+    extras.marks.push_back({*method.converged_s, "converged"});
+  else if (const auto at = number_of(localization, "converged_at_s"))
     extras.marks.push_back({start_s(input) + *at, "converged"});
   std::stable_sort(extras.marks.begin(), extras.marks.end(),
                    [](const PlotMark& a, const PlotMark& b) { return a.t_s < b.t_s; });
   const std::string name = svg::escape(method.name);
   return "<section class=\"card\"><h2>Hypotheses of " + name + " over time</h2>" +
          draw_plot("belief-" + name, belief_curves(method), end_s, extras) + state_key() +
-         "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. It is green while it is the true "
-         "pose (0.5 m, 10°); others bear the name of the room they came up in. " +
+         "<p class=\"facts\">Each line is one hypothesis, moved along with the robot. " +
+         (method.judged ? "It is green while it is the true pose (0.5 m, 10°); others bear the name of the room they "
+                          "came up in. "
+                        : "It bears the name of the room it came up in. ") +
          left_out(method) +
          "Equal lines are drawn 1 % apart. The bar shows the state that the method reports.</p></section>";
 }
 
-std::string draw_hypothesis(const ReportHypothesis& hypothesis) {
+std::string place_mark(const Eigen::Vector2d& at, double yaw, double mass) {
+  const double deg = yaw * 180.0 / std::numbers::pi;
+  return "<path class=\"heldplace\" d=\"M.5 0L-.3 -.28L-.16 0L-.3 .28Z\" transform=\"translate(" + svg::number(at.x()) +
+         " " + svg::number(-at.y()) + ") rotate(" + svg::number(-deg, 1) + ")\"><title>share " +
+         svg::number(100.0 * mass, 0) + " %</title></path>";
+}
+
+std::string draw_hypothesis(const ReportHypothesis& hypothesis, bool judged) {
   std::string out;
   for (const ReportMatch& match : hypothesis.walls) {
-    const std::string stroke = "stroke=\"" + std::string(match.right ? right_colour : wrong_colour) + "\"";
+    const std::string_view colour = !judged ? unjudged_colour : match.right ? right_colour : wrong_colour;
+    const std::string stroke = "stroke=\"" + std::string(colour) + "\"";
     for (const ReportWall& face : match.faces) out += svg::line(face.p0, face.p1, "class=\"plannedwall\" " + stroke);
     out += svg::line(match.patch.p0, match.patch.p1, "class=\"seenwall\" " + stroke);
   }
-  const double deg = hypothesis.yaw * 180.0 / std::numbers::pi;
-  return out + "<path class=\"heldplace\" d=\"M.5 0L-.3 -.28L-.16 0L-.3 .28Z\" transform=\"translate(" +
-         svg::number(hypothesis.at.x()) + " " + svg::number(-hypothesis.at.y()) + ") rotate(" + svg::number(-deg, 1) +
-         ")\"><title>share " + svg::number(100.0 * hypothesis.mass, 0) + " %</title></path>";
+  return out + place_mark(hypothesis.at, hypothesis.yaw, hypothesis.mass);
 }
 
 std::string ring(const Eigen::Vector2d& at) {
@@ -97,7 +108,7 @@ std::string counted(std::size_t n, const std::string& what) {
 }
 
 /// "at the end, 30 s: hypothesis 2 of 3, 33 %: 4 of 7 walls right"
-std::string caption(const ReportWalls& walls, std::size_t index) {
+std::string caption(const ReportWalls& walls, std::size_t index, bool judged) {
   const ReportHypothesis& hypothesis = walls.hypotheses[index];
   const auto right = std::count_if(hypothesis.walls.begin(), hypothesis.walls.end(),
                                    [](const ReportMatch& match) { return match.right; });
@@ -105,6 +116,7 @@ std::string caption(const ReportWalls& walls, std::size_t index) {
   if (walls.hypotheses.size() > 1)
     text += "hypothesis " + std::to_string(index + 1) + " of " + std::to_string(walls.hypotheses.size()) + ", " +
             svg::number(100.0 * hypothesis.mass, 0) + " %: ";
+  if (!judged) return text + counted(hypothesis.walls.size(), "wall");
   return text + std::to_string(right) + " of " + counted(hypothesis.walls.size(), "wall") + " right";
 }
 
@@ -115,8 +127,14 @@ std::string recognised(const ReportInput& input, const ReportMethod& method, con
                     "</summary><div class=\"beliefs\">";
   for (const ReportWalls& walls : method.recognised)
     for (std::size_t i = 0; i < std::min(most, walls.hypotheses.size()); ++i)
-      out += "<div><p>" + svg::escape(caption(walls, i)) + "</p>" + open_map(box, "walls matched " + walls.label) +
-             draw_plan(input, walls.storey) + draw_hypothesis(walls.hypotheses[i]) + ring(walls.truth) + "</svg></div>";
+      out += "<div><p>" + svg::escape(caption(walls, i, method.judged)) + "</p>" +
+             open_map(box, "walls matched " + walls.label) + draw_plan(input, walls.storey) +
+             draw_hypothesis(walls.hypotheses[i], method.judged) + (method.judged ? ring(walls.truth) : "") +
+             "</svg></div>";
+  if (!method.judged)
+    return out + "</div><div class=\"key\">" +
+           swatch(unjudged_colour, "observed wall (dark) and the wall of the plan it was matched with (light)") +
+           "<span>arrow: pose of the hypothesis</span></div></details>";
   return out + "</div><div class=\"key\">" +
          swatch(right_colour, "observed wall (dark) and the wall of the plan it was matched with (light), right") +
          swatch(wrong_colour, "wrong: it was another wall, or none") +
@@ -134,9 +152,10 @@ std::string particles(const ReportInput& input, std::size_t index, const MapBox&
     for (const auto& particle : belief.particles)
       out +=
           svg::circle({particle.x, particle.y}, 0.09, "fill=\"" + method_ink(method.ink) + "\" fill-opacity=\".55\"");
-    out += ring(belief.truth) + "</svg></div>";
+    out += (method.judged ? ring(belief.truth) : "") + "</svg></div>";
   }
-  return out + "</div><p class=\"facts\">Each dot is a particle; the ring is the true position.</p></details>";
+  return out + "</div><p class=\"facts\">Each dot is a particle" +
+         (method.judged ? "; the ring is the true position" : "") + ".</p></details>";
 }
 
 /// First time from which on every other hypothesis left is marginal, where that is so at the end.
@@ -155,8 +174,14 @@ std::optional<double> marginal_since(const ReportInput& input) {
 
 }  // namespace
 
+std::string draw_hypothesis_mark(const Pose& X_WR, double mass) {
+  const Eigen::Vector2d at = X_WR.t.head<2>();
+  return place_mark(at, X_WR.yaw(), mass) +
+         svg::text(at + Eigen::Vector2d(0.6, 0.2), svg::number(100.0 * mass, 0) + " %", "class=\"event\"");
+}
+
 std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
-  constexpr std::size_t longest = 12;  // of a room's name beside the plot
+  const std::size_t longest = method.judged ? 12 : 24;  // of a room's name beside the plot
   std::vector<PlotCurve> curves;
   bool true_is_named = false;
   int named = -1;  // the last hypothesis with a name beside the plot
@@ -176,10 +201,11 @@ std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
     curve.colour = history.is_true ? right_colour : other_colours[other];
     if (history.is_true && !std::exchange(true_is_named, true)) curve.name = "true pose";
     if (!history.is_true && std::exchange(named, history.hypothesis) != history.hypothesis) {
-      curve.name = "other";
+      curve.name = method.judged ? "other" : "hypothesis " + std::to_string(history.hypothesis + 1);
       if (!history.room.empty() && history.room.size() <= longest) curve.name += ": " + history.room;
     }
     curve.lowered = history.hypothesis;  // % each
+    curve.gap_s = method.breaks.gap_s;
     for (const Eigen::Vector2d& p : history.points) curve.points.emplace_back(p.x(), 100.0 * p.y());
     curves.push_back(std::move(curve));
   }

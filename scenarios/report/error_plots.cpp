@@ -83,8 +83,9 @@ std::vector<PlotCurve> error_curves(const ReportInput& input, const ErrorKind& k
     PlotCurve curve{method.name, method_ink(method.ink), {}}, lost{"", method_ink(method.ink), {}, method.name};
     lost.disclaimed = true;
     curve.jump = lost.jump = kind.jump;
+    curve.gap_s = lost.gap_s = method.breaks.gap_s;
     for (const ReportSample& sample : method.samples)
-      if (const std::optional<double> value = kind.value(sample))
+      if (const std::optional<double> value = sample.judged ? kind.value(sample) : std::nullopt)
         (sample.lost ? lost : curve).points.emplace_back(sample.t_s, kind.scale * *value);
     curves.push_back(std::move(curve));
     if (!lost.points.empty()) curves.push_back(std::move(lost));
@@ -92,7 +93,11 @@ std::vector<PlotCurve> error_curves(const ReportInput& input, const ErrorKind& k
   return curves;
 }
 
-std::string draw_kind(const ReportInput& input, const ErrorKind& kind, double end_s, bool small) {
+}  // namespace
+
+std::span<const ErrorKind> error_kinds() { return kinds; }
+
+std::string draw_error(const ReportInput& input, const ErrorKind& kind, double end_s, bool small) {
   PlotExtras extras;
   if (!small) extras.marks = common_marks(input);
   extras.title = kind.title;
@@ -100,10 +105,6 @@ std::string draw_kind(const ReportInput& input, const ErrorKind& kind, double en
   extras.small = small;
   return draw_plot(std::string(kind.id), error_curves(input, kind), end_s, extras);
 }
-
-}  // namespace
-
-std::span<const ErrorKind> error_kinds() { return kinds; }
 
 std::string draw_errors(const ReportInput& input, double end_s) {
   const std::vector<PlotCurve> curves = error_curves(input, kinds.front());
@@ -114,12 +115,12 @@ std::string draw_errors(const ReportInput& input, double end_s) {
     return "<section class=\"card\"><h2>Position error over time</h2><p class=\"facts\">No method gave one "
            "pose.</p></section>";
   std::string out =
-      "<section class=\"card\"><h2>Position error over time</h2>" + draw_kind(input, kinds.front(), end_s, false) +
+      "<section class=\"card\"><h2>Position error over time</h2>" + draw_error(input, kinds.front(), end_s, false) +
       "<p class=\"facts\">Point at it for values, click to jump there; the legend gives the values at the "
       "time shown. The scale ends at four times what the median method reaches, so that good ones can be compared; "
       "triangles: beyond it. Dotted: the method says that it is lost.</p>"
       "<details class=\"fold\" open><summary>By axis, heading, and over the last metre</summary><div class=\"pair\">";
-  for (const ErrorKind& kind : std::span(kinds).subspan(1)) out += draw_kind(input, kind, end_s, true);
+  for (const ErrorKind& kind : std::span(kinds).subspan(1)) out += draw_error(input, kind, end_s, true);
   return out + "</div></details></section>";
 }
 

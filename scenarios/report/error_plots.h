@@ -31,6 +31,9 @@ struct ErrorKind {
 /// Errors of all methods over time, a plot for each kind.
 [[nodiscard]] std::string draw_errors(const ReportInput& input, double end_s);
 
+/// One kind of error of all methods over time, alone; `small`: as one of several.
+[[nodiscard]] std::string draw_error(const ReportInput& input, const ErrorKind& kind, double end_s, bool small);
+
 /// How many poses are left to each plan localization, and how many the scans admit; empty where none has hypotheses.
 [[nodiscard]] std::string draw_hypothesis_counts(const ReportInput& input, double end_s);
 

@@ -92,7 +92,7 @@ HypothesisHistory& stretch_of(Tracked& one, bool is_true) {
 }  // namespace
 
 HypothesisHistories hypothesis_histories(const std::vector<BeliefRecord>& beliefs, const score::Truth& truth,
-                                         std::size_t most) {
+                                         std::size_t most, bool judged) {
   const score::LocalizationRules rules;
   std::vector<Tracked> tracked;
   std::map<double, double> others;  // mass by time
@@ -117,7 +117,7 @@ HypothesisHistories hypothesis_histories(const std::vector<BeliefRecord>& belief
       one.mass += hypothesis.mass;
       one.all.emplace_back(slam::seconds(beliefs[i].stamp), hypothesis.mass);
       if (one.room.empty()) one.room = hypothesis.room;
-      const bool is_true = metres(hypothesis.X_WR, X_WR) <= rules.position_m &&
+      const bool is_true = judged && metres(hypothesis.X_WR, X_WR) <= rules.position_m &&
                            radians(hypothesis.X_WR, X_WR) <= rules.yaw_deg * std::numbers::pi / 180.0;
       one.was_true = one.was_true || is_true;
       add(stretch_of(one, is_true).points, {slam::seconds(beliefs[i].stamp), hypothesis.mass});

@@ -59,12 +59,14 @@ bool is_shown(const ReportInput& input, int storey) {
                      [&](const ReportStorey& shown) { return shown.index == storey; });
 }
 
-bool is_jump(const ReportSample& from, const ReportSample& to) {
-  return to.t_s - from.t_s > path_gap_s || std::hypot(to.x - from.x, to.y - from.y) > path_jump_m;
+bool is_jump(const ReportSample& from, const ReportSample& to, const PathBreaks& breaks) {
+  return to.t_s - from.t_s > breaks.gap_s || std::hypot(to.x - from.x, to.y - from.y) > breaks.jump_m;
 }
 
-/// A line for each stretch of the path on the storey, broken where it jumps.
-std::string draw_path(const std::vector<ReportSample>& samples, int storey, const std::string& attributes) {
+/// A line for each stretch of the path on the storey, broken where it jumps: of what is an answer, or of what was given
+/// while lost.
+std::string draw_path(const std::vector<ReportSample>& samples, int storey, const std::string& attributes,
+                      const PathBreaks& breaks = {}, bool lost = false) {
   std::string out;
   std::vector<Eigen::Vector2d> stretch;
   const auto draw = [&] {
@@ -72,8 +74,11 @@ std::string draw_path(const std::vector<ReportSample>& samples, int storey, cons
     stretch.clear();
   };
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const bool shown = samples[i].storey == storey && !samples[i].lost;  // a pose given while lost is no answer
-    if (!shown || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    const bool shown = samples[i].storey == storey && samples[i].lost == lost;
+    const bool jumps = i > 0 && is_jump(samples[i - 1], samples[i], breaks);
+    if (lost && shown && !jumps && stretch.empty() && i > 0)
+      stretch.emplace_back(samples[i - 1].x, samples[i - 1].y);  // the two kinds meet
+    if (!shown || jumps) draw();
     if (shown) stretch.emplace_back(samples[i].x, samples[i].y);
   }
   draw();
@@ -86,7 +91,7 @@ std::size_t error_band(double error_m) {
 }
 
 /// The same path in stretches by the size of its error; the page shows one of the two.
-std::string draw_path_by_error(const std::vector<ReportSample>& samples, int storey) {
+std::string draw_path_by_error(const std::vector<ReportSample>& samples, int storey, const PathBreaks& breaks) {
   std::string out;
   std::vector<Eigen::Vector2d> stretch;
   std::size_t band = 0;
@@ -96,8 +101,8 @@ std::string draw_path_by_error(const std::vector<ReportSample>& samples, int sto
     stretch.clear();
   };
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const bool shown = samples[i].storey == storey && !samples[i].lost;
-    if (!shown || (i > 0 && is_jump(samples[i - 1], samples[i]))) draw();
+    const bool shown = samples[i].storey == storey && !samples[i].lost && samples[i].judged;
+    if (!shown || (i > 0 && is_jump(samples[i - 1], samples[i], breaks))) draw();
     if (!shown) continue;
     const Eigen::Vector2d at(samples[i].x, samples[i].y);
     const std::size_t now = error_band(samples[i].error_m);
@@ -138,9 +143,16 @@ std::string draw_kidnap(const ReportInput& input, int storey) {
   return out;
 }
 
-std::string robot_mark(const std::string& name, int storey, const std::string& fill) {
+/// An arrow ahead; on maps of more than a building larger than the robot.
+std::string arrow_of(double scale) {
+  if (scale == 1.0) return "M.36 0L-.22 -.2L-.12 0L-.22 .2Z";
+  const auto at = [&](double x, double y) { return svg::number(scale * x) + " " + svg::number(scale * y); };
+  return "M" + at(0.36, 0.0) + "L" + at(-0.22, -0.2) + "L" + at(-0.12, 0.0) + "L" + at(-0.22, 0.2) + "Z";
+}
+
+std::string robot_mark(const std::string& name, int storey, const std::string& fill, double scale) {
   return "<path class=\"robot\" data-robot=\"" + svg::escape(name) + "\" data-storey=\"" + std::to_string(storey) +
-         "\" d=\"M.36 0L-.22 -.2L-.12 0L-.22 .2Z\" fill=\"" + fill + "\" stroke=\"var(--room)\" stroke-width=\".04\"/>";
+         "\" d=\"" + arrow_of(scale) + "\" fill=\"" + fill + "\" stroke=\"var(--room)\" stroke-width=\".04\"/>";
 }
 
 /// Rooms of the method are right or wrong only where rooms of the building are known.
@@ -156,28 +168,34 @@ std::string draw_structure(const ReportMethod& method, int storey, bool rooms_kn
   return out;
 }
 
-std::string draw_method(const ReportMethod& method, int storey, bool rooms_known) {
+std::string draw_method(const ReportMethod& method, int storey, bool rooms_known, double mark_scale) {
   const std::string c = method_ink(method.ink);
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
   if (!method.localization) out += draw_structure(method, storey, rooms_known, c);
-  out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"");
-  out += draw_path_by_error(method.samples, storey);
-  return out + robot_mark(method.name, storey, c) + "</g>";
+  out += draw_path(method.corrected, storey, "class=\"path corrected\" stroke=\"" + c + "\"", method.breaks);
+  out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"", method.breaks);
+  if (method.lost_drawn)
+    out += draw_path(method.samples, storey, "class=\"path lost\" stroke=\"" + c + "\"", method.breaks, true);
+  out += draw_path_by_error(method.samples, storey, method.breaks);
+  return out + robot_mark(method.name, storey, c, mark_scale) + "</g>";
 }
 
 std::string draw_map(const ReportInput& input, const ReportStorey& storey, const MapBox& box) {
   const bool several = input.storeys.size() > 1;
   std::string out = several ? "<p class=\"storey\">" + svg::escape(storey.name) + "</p>" : "";
   out +=
-      open_map(box, "floor plan" + (several ? " of " + storey.name : "") + " with the true and the estimated paths") +
-      draw_plan(input, storey.index) + draw_deviations(storey.deviations);
+      open_map(box, (input.has_plan ? "floor plan" : "map") + (several ? " of " + storey.name : std::string()) +
+                        (input.truth.empty() ? " with the estimated path" : " with the true and the estimated paths")) +
+      draw_plan(input, storey.index) + storey.below_paths + draw_deviations(storey.deviations);
   const bool rooms_known = std::any_of(input.plan.rooms.begin(), input.plan.rooms.end(),
                                        [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
   for (const ReportMethod& method : input.methods)
-    if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known);
+    if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known, input.mark_scale);
   out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
-         draw_kidnap(input, storey.index) + robot_mark("truth", storey.index, "var(--truth)") + draw_scale(box);
+         draw_kidnap(input, storey.index) +
+         (input.truth.empty() ? "" : robot_mark("truth", storey.index, "var(--truth)", input.mark_scale)) +
+         draw_scale(box);
   return out + "</svg>";
 }
 
@@ -209,6 +227,23 @@ Span widest_row(const Polygon2& polygon, double y) {
       if (const Span both{std::max(low.from, high.from), std::min(low.to, high.to)}; both.length() > widest.length())
         widest = both;
   return widest;
+}
+
+/// Whether a path is drawn where its method was lost.
+bool draws_lost(const ReportMethod& method) {
+  return method.lost_drawn && std::any_of(method.samples.begin(), method.samples.end(),
+                                          [](const ReportSample& sample) { return sample.lost; });
+}
+
+/// What methods found, where no plan says how far the map goes.
+void add_estimates(const ReportInput& input, MapBox& box) {
+  for (const ReportMethod& method : input.methods) {
+    for (const ReportSample& sample : method.samples) box.add({sample.x, sample.y});
+    for (const ReportWall& wall : method.walls) {
+      box.add(wall.p0);
+      box.add(wall.p1);
+    }
+  }
 }
 
 }  // namespace
@@ -271,6 +306,9 @@ MapBox bounds(const ReportInput& input) {
     if (input.plan.faces.empty() && is_shown(input, obstacle.storey))
       for (const auto& p : obstacle.outline_W) box.add(p);
   for (const auto& sample : input.truth) box.add({sample.x, sample.y});
+  if (!input.has_plan) add_estimates(input, box);
+  for (const Eigen::Vector2d& p : input.extent) box.add(p);
+  if (box.max.x() < box.min.x()) box.add(Eigen::Vector2d::Zero());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
   return {box.min - margin, box.max + margin};
 }
@@ -343,12 +381,19 @@ std::string map_key(const ReportInput& input) {
         area("fill=\"none\" stroke=\"var(--planned)\" stroke-dasharray=\"3 2\"", "planned and not built");
   if (!input.flights.empty())
     found += item("stroke=\"var(--wall)\" stroke-width=\"20\" stroke-dasharray=\"1 4\"", "stairs (arrow: up)");
-  return "<div class=\"key\">" +
-         item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
-         area("class=\"thing\"", "columns, furniture and other obstacles (dashed: with gaps)") +
-         item("stroke=\"var(--truth)\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", "ground truth") +
-         item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") + found + "</div>" +
-         error_key();
+  std::string key = "<div class=\"key\">";
+  if (input.has_plan)
+    key += item("stroke=\"var(--wall)\" stroke-width=\"3\"", "wall of the building (faint: overhead)") +
+           area("class=\"thing\"", "columns, furniture and other obstacles (dashed: with gaps)");
+  if (!input.truth.empty())
+    key += item("stroke=\"var(--truth)\" stroke-width=\"2\" stroke-dasharray=\"5 4\"", svg::escape(input.truth_name));
+  key += item("stroke=\"var(--m0)\" stroke-width=\"2\"", "estimate (in the colour of its method)") + found;
+  if (std::any_of(input.methods.begin(), input.methods.end(), draws_lost))
+    key += item("stroke=\"var(--m0)\" stroke-width=\"2\" stroke-dasharray=\"1 4\"", "while it reports LOST");
+  if (std::any_of(input.methods.begin(), input.methods.end(), [](const auto& m) { return !m.corrected.empty(); }))
+    key += item("stroke=\"var(--m0)\" stroke-width=\"5\" stroke-opacity=\".3\"", "path after the last optimisation");
+  key += "</div>";
+  return input.truth.empty() ? key : key + error_key();
 }
 
 }  // namespace plumbline::scenarios

@@ -19,6 +19,10 @@ namespace plumbline::scenarios {
 /// What maps of any page do: zoom, pan, names that keep their size and stay apart, coordinates. Stands before
 /// page_script().
 [[nodiscard]] std::string_view map_script();
+/// What the page of an estimate has beside the report's: lines as wide on the screen whatever the map's size, and where
+/// the robot is at the time shown.
+[[nodiscard]] std::string_view estimate_style();
+[[nodiscard]] std::string_view estimate_script();
 /// Buttons with data-copy: put that text on the clipboard, or select it where they may not.
 [[nodiscard]] std::string_view copy_script();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/report/page_data.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,7 +17,8 @@ namespace {
 /// To 1 / `parts`, as the nearest number, which has the shortest text.
 double rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
-/// Times, places, headings and storeys; of a method its errors too, null where there is none.
+/// Times, places, headings and storeys; of a method its errors too, null where there is none, left out where there is
+/// none at all.
 Tree track(const std::vector<ReportSample>& samples, bool with_error) {
   const auto column = [&](const auto& value) {
     Tree list = Tree::list();
@@ -31,9 +33,11 @@ Tree track(const std::vector<ReportSample>& samples, bool with_error) {
       .set("s", column([](const ReportSample& s) { return Tree(s.storey); }));
   if (!with_error) return out;
   out.set("lost", column([](const ReportSample& s) { return Tree(s.lost ? 1 : 0); }));
+  const auto is_judged = [](const ReportSample& sample) { return sample.judged; };
+  if (!samples.empty() && std::none_of(samples.begin(), samples.end(), is_judged)) return out;
   for (const ErrorKind& kind : error_kinds())
     out.set(std::string(kind.column), column([&](const ReportSample& s) {
-              const std::optional<double> value = kind.value(s);
+              const std::optional<double> value = s.judged ? kind.value(s) : std::nullopt;
               return value ? Tree(rounded(*value, 10000.0)) : Tree();
             }));
   return out;
@@ -94,7 +98,9 @@ Tree plots(const ReportInput& input, double end_s) {
 
 std::string script_data(const ReportInput& input, double end_s) {
   Tree tracks = Tree::map();
-  tracks.set("truth", track(input.truth, false));
+  // Without a truth the maps follow the estimate.
+  const bool has_truth = !input.truth.empty() || input.methods.empty();
+  tracks.set("truth", track(has_truth ? input.truth : input.methods.front().samples, false));
   for (const auto& method : input.methods)
     if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
   Tree states = Tree::map();

@@ -95,7 +95,7 @@ std::string path(const PlotCurve& curve, const Scale& scale) {
   Eigen::Vector2d last(-1e9, 0.0);
   for (const auto& p : curve.points) {
     const bool jumps = curve.jump > 0.0 && std::abs(p.y() - last.y()) > curve.jump;
-    d += jumps || p.x() - last.x() > path_gap_s ? "M" : "L";
+    d += jumps || p.x() - last.x() > curve.gap_s ? "M" : "L";
     const double y = curve.lowered > 0.0 ? std::max(scale.min, p.y() - curve.lowered) : p.y();
     d += svg::number(scale.x(p.x()), 1) + " " + svg::number(scale.y(y), 1);
     last = p;

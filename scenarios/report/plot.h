@@ -7,6 +7,9 @@
 
 namespace plumbline::scenarios {
 
+/// Two points of a curve further apart than this in time are not joined, where nothing else is said.
+inline constexpr double path_gap_s = 1.0;
+
 struct PlotCurve {
   std::string name;                     ///< in the legend; empty for another stretch of a curve that stands there
   std::string colour;                   ///< as CSS has it
@@ -14,6 +17,7 @@ struct PlotCurve {
   std::string layer = {};               ///< method with which it is shown and hidden; its name where empty
   double lowered = 0.0;                 ///< drawn so far below its values: equal curves would hide each other
   double jump = 0.0;                    ///< values further apart than this are not joined; 0: all are
+  double gap_s = path_gap_s;            ///< points further apart in time than this are not joined
   bool disclaimed = false;              ///< the method said that it is lost: dotted, and the scale does not heed it
 };
 
@@ -42,12 +46,7 @@ struct PlotExtras {
   bool small = false;      ///< one of several
 };
 
-/// Two points of a path further apart than this in time, or further in space, are not joined: the robot was carried, or
-/// the method changed its answer.
-inline constexpr double path_gap_s = 1.0;
-inline constexpr double path_jump_m = 1.0;
-
-/// Line plot over time from 0 to end_s with round ticks and a legend; gaps over path_gap_s in a curve stay open, what
+/// Line plot over time from 0 to end_s with round ticks and a legend; gaps in a curve stay open, what
 /// is beyond the scale is marked at its edge. As wide as the page lets it be: curves stretch, text does not. The script
 /// fills in the legend's values.
 [[nodiscard]] std::string draw_plot(const std::string& id, const std::vector<PlotCurve>& curves, double end_s,

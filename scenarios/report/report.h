@@ -27,6 +27,14 @@ struct ReportSample {
   Eigen::Vector3d error_W = Eigen::Vector3d::Zero();  ///< estimated minus true position, m
   double yaw_error = 0.0;                             ///< estimated minus true, rad, in (-pi, pi]
   std::optional<double> relative_m = {};              ///< error of the motion over the last metre walked, m
+  bool judged = true;                                 ///< a true pose is known, so that the errors say something
+};
+
+/// Two points of a path further apart than this in time or in space are not joined: the robot was carried, or the
+/// method changed its answer.
+struct PathBreaks {
+  double gap_s = 1.0;
+  double jump_m = 1.0;
 };
 
 /// A wall face of an estimate or of the plan, as a segment in W.
@@ -105,6 +113,11 @@ struct ReportMethod {
   std::optional<double> failed_s = {};            ///< when it was first lost or far off, on the run's clock
   std::optional<SlipEpisode> slip = {};           ///< of the feet, within the second before
   std::vector<ReportWalls> recognised;
+  std::vector<ReportSample> corrected;     ///< the path after the last optimisation, where it is drawn, too
+  std::optional<double> converged_s = {};  ///< a mark; without it, by the results
+  bool judged = true;                      ///< which of its hypotheses and walls are right is known
+  bool lost_drawn = false;                 ///< its path is drawn while it is lost, too, dotted
+  PathBreaks breaks = PathBreaks();
 };
 
 /// A storey with a map of its own.
@@ -112,6 +125,7 @@ struct ReportStorey {
   int index = 0;  ///< into Plan::storeys
   std::string name;
   std::vector<ReportDeviation> deviations;
+  std::string below_paths = {};  ///< SVG over the plan and under the paths: the points of a map
 };
 
 /// A robot that was kidnapped: its last scan before and its first one after.
@@ -130,7 +144,11 @@ struct ReportInput {
   std::vector<ReportSample> truth;
   std::vector<ReportMethod> methods;
   std::optional<ReportKidnap> kidnap;
-  bool has_replay = false;  ///< replay.html stands beside the page
+  bool has_replay = false;                  ///< replay.html stands beside the page
+  std::vector<Eigen::Vector2d> extent;      ///< points that maps reach, too
+  double mark_scale = 1.0;                  ///< of the marks that stand for the robot
+  bool has_plan = true;                     ///< a building is known and drawn
+  std::string truth_name = "ground truth";  ///< what its line is called
 };
 
 /// One self-contained HTML page: the plan of every storey the robot was on, true and estimated trajectories, found

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bim/model/rooms.h"
-#include "scenarios/metrics/state_names.h"
 #include "scenarios/metrics/storey.h"
+#include "scenarios/report/belief_builder.h"
 #include "scenarios/report/deviation_sight.h"
 #include "scenarios/report/hypothesis_history.h"
 #include "scenarios/report/map_drawing.h"
@@ -68,89 +68,6 @@ void add_structure(const bim::Plan& plan, const MethodRecord& method, const scor
   }
 }
 
-ReportBelief belief_at(const bim::Plan& plan, const MethodRecord& method, std::size_t i, const std::string& label,
-                       const score::Truth& truth) {
-  const BeliefRecord& belief = method.beliefs[i];
-  const Eigen::Vector3d p_W = truth.at(belief.stamp).t;
-  return {label, slam::seconds(belief.stamp), belief.particles, p_W.head<2>(),
-          score::storey_of_base(plan.storeys, p_W.z())};
-}
-
-/// Particles at the start, half-way to the convergence (or the end) and there.
-void add_beliefs(const bim::Plan& plan, const MethodRecord& method, const score::Truth& truth, ReportMethod& shown) {
-  std::vector<std::size_t> kept;
-  std::size_t converged = method.beliefs.size();
-  for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
-    const BeliefRecord& belief = method.beliefs[i];
-    shown.states.push_back({slam::seconds(belief.stamp), static_cast<int>(belief.hypotheses.size()), belief.state});
-    if (converged == method.beliefs.size() && belief.state == slam::State::converged) converged = i;
-    if (!belief.particles.empty() && i <= converged) kept.push_back(i);
-  }
-  if (kept.empty()) return;
-  const bool has_converged = converged < method.beliefs.size();
-  const std::string last = kept.back() == converged ? "convergence" : has_converged ? "before convergence" : "end";
-  shown.beliefs.push_back(belief_at(plan, method, kept.front(), "start", truth));
-  if (kept.size() > 2) shown.beliefs.push_back(belief_at(plan, method, kept[kept.size() / 2], "middle", truth));
-  if (kept.size() > 1) shown.beliefs.push_back(belief_at(plan, method, kept.back(), last, truth));
-}
-
-ReportWall wall_of(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1) { return {p0, p1, 0}; }
-
-/// The walls that a hypothesis matched; `right` as the score judges it.
-ReportHypothesis hypothesis_of(const slam::Hypothesis& hypothesis, const Pose& X_WR_true, const bim::Plan& as_planned,
-                               const bim::Plan& as_built) {
-  ReportHypothesis shown{hypothesis.X_WR.t.head<2>(), hypothesis.X_WR.yaw(), hypothesis.mass, {}};
-  const std::vector<bool> right = score::right_matches(hypothesis.walls, X_WR_true, as_planned, as_built);
-  for (std::size_t i = 0; i < hypothesis.walls.size(); ++i) {
-    const slam::WallMatch& match = hypothesis.walls[i];
-    ReportMatch matched;
-    matched.right = right[i];
-    matched.patch = wall_of((hypothesis.X_WR * match.p0_R).head<2>(), (hypothesis.X_WR * match.p1_R).head<2>());
-    for (const bim::PlanFace& face : as_planned.faces)
-      if (std::find(match.faces.begin(), match.faces.end(), face.id) != match.faces.end())
-        matched.faces.push_back(wall_of(face.p0, face.p1));
-    shown.walls.push_back(std::move(matched));
-  }
-  return shown;
-}
-
-/// The walls matched half-way to the first convergence (or the end), there, and at the end, where they were kept.
-void add_recognised(const FinishedRun& run, const MethodRecord& method, const score::RunScore& score,
-                    ReportMethod& shown) {
-  std::vector<std::size_t> before;
-  std::optional<std::size_t> converged, last;
-  for (std::size_t i = 0; i < method.beliefs.size(); ++i) {
-    const BeliefRecord& belief = method.beliefs[i];
-    const bool kept = std::any_of(belief.hypotheses.begin(), belief.hypotheses.end(),
-                                  [](const slam::Hypothesis& hypothesis) { return !hypothesis.walls.empty(); });
-    if (!kept) continue;
-    last = i;
-    if (!converged && belief.state == slam::State::converged) converged = i;
-    if (!converged) before.push_back(i);
-  }
-  if (!last) return;
-  const bim::Plan& as_planned = *run.building->plan_as_planned();
-  const auto show = [&](std::size_t i, const std::string& label) {
-    constexpr std::size_t most = 8;  // hypotheses, so that walls stay apart
-    const BeliefRecord& belief = method.beliefs[i];
-    const Pose X_WR = score.truth.at(belief.stamp);
-    ReportWalls walls{label,
-                      slam::seconds(belief.stamp),
-                      score::storey_of_base(as_planned.storeys, X_WR.t.z()),
-                      X_WR.t.head<2>(),
-                      {}};
-    for (std::size_t k = 0; k < std::min(most, belief.hypotheses.size()); ++k)
-      walls.hypotheses.push_back(hypothesis_of(belief.hypotheses[k], X_WR, as_planned, run.building->plan_as_built()));
-    shown.recognised.push_back(std::move(walls));
-  };
-  if (!before.empty()) {
-    const std::size_t i = before[before.size() / 2];
-    show(i, "while " + std::string(state_name(method.beliefs[i].state)));
-  }
-  if (converged) show(*converged, "at convergence");
-  if (last != converged && (before.empty() || *last != before[before.size() / 2])) show(*last, "at the end");
-}
-
 /// When a method was first lost or, by its score, wrong.
 std::optional<double> failed_s(const ReportMethod& method, const score::MethodScore& score) {
   if (method.localization) return score.localization ? score.localization->failure_at_s : std::nullopt;
@@ -189,6 +106,20 @@ std::vector<TruthSample> walk_of(const score::Truth& truth) {
   return walk;
 }
 
+/// Where the robot was, and which walls of a hypothesis it was that it saw.
+BeliefContext beliefs_by_truth(const FinishedRun& run, const score::RunScore& score, const bim::Plan& plan) {
+  BeliefContext context;
+  context.place = [&](slam::Nanoseconds stamp) {
+    const Eigen::Vector3d p_W = score.truth.at(stamp).t;
+    return ReportPlace{p_W.head<2>(), score::storey_of_base(plan.storeys, p_W.z())};
+  };
+  context.right = [&](slam::Nanoseconds stamp, const slam::Hypothesis& hypothesis) {
+    return score::right_matches(hypothesis.walls, score.truth.at(stamp), *run.building->plan_as_planned(),
+                                run.building->plan_as_built());
+  };
+  return context;
+}
+
 /// Method i of the run, without its ink.
 ReportMethod method_of(const FinishedRun& run, const score::RunScore& score, std::size_t i, const bim::Plan& plan) {
   constexpr std::size_t shown_places = 6;  // curves that stay apart
@@ -198,14 +129,15 @@ ReportMethod method_of(const FinishedRun& run, const score::RunScore& score, std
   shown.localization = method.localization;
   shown.samples = samples_of(plan, method, score.truth);
   add_structure(plan, method, score.methods[i], shown);
-  add_beliefs(plan, method, score.truth, shown);
+  const BeliefContext context = beliefs_by_truth(run, score, plan);
+  add_beliefs(method, context, shown);
   HypothesisHistories histories = hypothesis_histories(method.beliefs, score.truth, shown_places);
   shown.histories = std::move(histories.shown);
   shown.other_hypotheses = std::move(histories.others);
   shown.hypotheses_left_out = histories.left_out;
   for (HypothesisHistory& history : shown.histories)
     history.room = bim::room_name(run.building->as_built().rooms, history.room);
-  add_recognised(run, method, score, shown);
+  add_matched_walls(method, *run.building->plan_as_planned(), context, shown);
   shown.failed_s = failed_s(shown, score.methods[i]);
   if (shown.failed_s) shown.slip = slip_before(run.scenario, *shown.failed_s);
   return shown;

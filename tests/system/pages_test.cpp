@@ -84,6 +84,24 @@ TEST_F(Pages, OfALargerBuildingFitAPhone) {
   EXPECT_EQ(faults_of({page}, *folder_ / "house.log"), "");
 }
 
+TEST_F(Pages, OfEstimatesKeepToItToo) {
+  if (const std::string missing = no_browser(); !missing.empty()) GTEST_SKIP() << missing;
+  const std::string walk = *folder_ / "walk", plan = *folder_ / "short.plan.yaml";
+  ASSERT_EQ(plumbline({"simulate", *folder_ / "short.yaml", "-o", walk}).code, 0);
+  std::vector<std::string> pages;
+  const auto estimate = [&](const std::string& method, std::vector<std::string> more, const std::string& reference) {
+    const std::string out = *folder_ / ("estimate_" + method);
+    more.insert(more.begin(), {"estimate", walk, "--method", method, "-o", out});
+    ASSERT_EQ(plumbline(more).code, 0);
+    ASSERT_EQ(plumbline({"score", out, "--reference", reference}).code, 0);
+    pages.push_back(*folder_ / (method + ".html"));  // by its name report.html is taken for a run's
+    fs::copy(out + "/report.html", pages.back());
+  };
+  estimate("s_graphs_plus", {}, walk + "/truth.tum");
+  estimate("s_graph_localization", {"--plan", plan}, walk + "/truth.tum,frame=W");
+  EXPECT_EQ(faults_of(pages, *folder_ / "estimates.log"), "");
+}
+
 TEST_F(Pages, OfSlamThatIsFarOffSaySo) {
   const std::string stuck = fs::path(std::getenv("PLUMBLINE_BINARY")).parent_path() / "tests/hostile_process";
   const std::string run = *folder_ / "far";

@@ -4,7 +4,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(source "// SPDX-License-Identifier: Apache-2.0\n#include \"scenarios/report/page.h\"\n\nnamespace plumbline::scenarios {\n\n")
-foreach(pair page_style=style.css page_script=report.js sort_script=sort.js map_script=maps.js copy_script=copy.js)
+foreach(pair page_style=style.css page_script=report.js sort_script=sort.js map_script=maps.js copy_script=copy.js
+    estimate_style=estimate.css estimate_script=estimate.js)
   string(REPLACE "=" ";" pair ${pair})
   list(GET pair 0 name)
   list(GET pair 1 file)
