@@ -136,16 +136,16 @@ class EvidenceByCause {
   struct Sum {
     double log_likelihood = 0.0;
     double passed = 0.0;         ///< of it, by what passes a wall as a whole
-    double met = 0.0;            ///< by what meets the same wall, as if it passed it
     double unexplained = 0.0;    ///< of beams that end next to `within` and fit at neither pose
     Eigen::AlignedBox2d within;  ///< where beams ended, in I
     double before_m = 0.0;       ///< how far before the face, m, weighted by log_likelihood
     double before_m2 = 0.0;      ///< and its square, m²
+    double met = 0.0;            ///< by what meets an element that other beams pass, as if it passed it, too
   };
   void add(const OutlierCause& cause, const Sum& more, double scale = 1.0);
   /// passed: the part of it by what passes a wall as a whole.
   void add(const OutlierCause& cause, double log_likelihood, double passed = 0.0) {
-    add(cause, {log_likelihood, passed, 0.0, 0.0, {}});
+    add(cause, {log_likelihood, passed, 0.0, {}});
   }
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
