@@ -20,8 +20,11 @@ struct UnplannedObject {
 /// Share of other causes by which a missing wall counts for more than alone.
 constexpr double corroborated = 0.5;
 
-/// Most of what contradicts the element passes it as a whole, and does not only end in it.
-bool is_missing_wall(const EvidenceByCause::Sum& sum) { return sum.passed > 0.5 * sum.log_likelihood; }
+/// Most of what contradicts the element passes it as a whole, and does not only end in it; and hardly anything meets
+/// it.
+bool is_missing_wall(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
+  return sum.passed > 0.5 * sum.log_likelihood && sum.met <= config.met_share * sum.passed;
+}
 
 bool is_outlined(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
   return sum.unexplained <= config.outline_share * sum.log_likelihood;
@@ -42,9 +45,15 @@ bool is_front(const UnplannedObject& object, const HypothesisComparisonConfig& c
   return object.length_m > config.object_m && object.flat > 0.5 * object.sum.log_likelihood;
 }
 
+/// 1, or down to 0 where the better pose leaves as much of the object unexplained as it explains: then one stands there
+/// at either pose.
+double explained_share(const EvidenceByCause::Sum& sum) {
+  return std::clamp(2.0 - 2.0 * sum.unexplained / sum.log_likelihood, 0.0, 1.0);
+}
+
 /// Most that an object counts for.
 double cap_of(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
-  const double cap = std::max(1.0, object.length_m / config.object_m) * config.object_cap;
+  const double cap = explained_share(object.sum) * std::max(1.0, object.length_m / config.object_m) * config.object_cap;
   const bool outlined = object.length_m <= config.object_m && is_outlined(object.sum, config);
   return outlined ? std::max(cap, config.outlined_cap) : cap;
 }
@@ -79,6 +88,7 @@ void EvidenceByCause::add(const OutlierCause& cause, const Sum& more, double sca
   sum.log_likelihood += scale * more.log_likelihood;
   sum.passed += scale * more.passed;
   sum.unexplained += scale * more.unexplained;
+  sum.met += scale * more.met;
   sum.before_m += scale * more.before_m;
   sum.before_m2 += scale * more.before_m2;
   sum.within.extend(more.within);
@@ -95,7 +105,7 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
     if (cause.kind == OutlierCause::Kind::not_built) {
       const double capped = std::min(sum.log_likelihood, config.cause_cap);
       total += capped;
-      if (is_missing_wall(sum)) missing_wall = std::max(missing_wall, capped);
+      if (is_missing_wall(sum, config)) missing_wall = std::max(missing_wall, capped);
     } else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
     else {

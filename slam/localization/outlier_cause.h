@@ -8,9 +8,6 @@
 
 namespace plumbline::slam {
 
-/// The plan is cast no farther than this beyond a return: the residual is at its cap there.
-constexpr float cast_beyond_m = 2.0F;
-
 /// What explains where a beam ended, other than predicted.
 struct ExplainedOutlier {
   OutlierCause cause;

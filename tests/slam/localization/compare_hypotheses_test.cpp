@@ -116,6 +116,21 @@ TEST_P(CompareHypothesesAt, AColumnDecidesAndWiderFurnitureDoesNot) {
   EXPECT_LE(in_the_end(furniture.against_a), config.object_cap);
 }
 
+TEST_P(CompareHypothesesAt, AColumnDecidesWhereFurnitureStandsBesideIt) {
+  synthetic::House planned = twins_;
+  planned.boxes.push_back(column_at(4.2, 1.5));
+  synthetic::House near = planned, touching = planned;
+  near.boxes.push_back({{4.2, 2.05, 0.0}, {4.6, 2.85, 2.0}});
+  touching.boxes.push_back({{4.2, 1.9, 0.0}, {4.6, 2.7, 2.0}});
+  const HypothesisComparisonConfig config;
+  EXPECT_NEAR(in_the_end(compare_here_and_there(planned, near, somewhere(), 9).against_b), config.outlined_cap, 1e-9);
+  const PairwiseLikelihoodRatio told =
+      compare_here_and_there(planned, touching, somewhere(), 9, mesh_of(touching.boxes.back()));
+  EXPECT_NEAR(in_the_end(told.against_b), config.outlined_cap, 1e-9) << "the plan has furniture there";
+  const PairwiseLikelihoodRatio unknown = compare_here_and_there(planned, touching, somewhere(), 9);
+  EXPECT_LE(in_the_end(unknown.against_b), config.object_cap);
+}
+
 // The other room is 0.6 m less deep; where its wall is, cupboards stand here.
 TEST_P(CompareHypothesesAt, AWallOfCupboardsDoesNotDecide) {
   const synthetic::Box cupboards{{4.4, 0.0, 0.0}, {5.0, 4.0, 2.4}};
@@ -292,6 +307,26 @@ TEST(PairwiseLikelihoodRatio, ANicheInAWallIsNoMissingWall) {
     return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X_WR), scan, config);
   };
   EXPECT_GE(in_the_end(compare_hypotheses(scan, seen(with), seen(without), config).against_b), config.cause_cap);
+}
+
+// Beams pass the wall at a door that the plan has not, and meet the rest of it.
+TEST(PairwiseLikelihoodRatio, AWallWithADoorElsewhereIsNoMissingWall) {
+  synthetic::House built = synthetic::one_room(12.0, 4.0), planned = built;
+  planned.boxes.push_back({{5.0, 0.0, 0.0}, {5.2, 4.0, 2.8}});
+  built.boxes.push_back({{5.0, 0.0, 0.0}, {5.2, 1.5, 2.8}});
+  built.boxes.push_back({{5.0, 2.4, 0.0}, {5.2, 4.0, 2.8}});
+  const PlanIndex with = make_plan_index(synthetic::plan_of(built), "ground", {}),
+                  without = make_plan_index(synthetic::plan_of(planned), "ground", {});
+  const HypothesisComparisonConfig config;
+  const Pose X_WR = Pose::from_xyz_yaw({2.0, 1.7, 0.46}, 0.1);
+  const auto against_plan = [&](const synthetic::House& world) {
+    const LocalizationScan scan = synthetic::house_scan(world, X_WR, Pose{}).scan;
+    const auto seen = [&](const PlanIndex& index) {
+      return predict_scan(index.storeys.front(), heading(index.X_WI.inverse() * X_WR), scan, config);
+    };
+    return in_the_end(compare_hypotheses(scan, seen(with), seen(without), config).against_b);
+  };
+  EXPECT_NEAR(against_plan(built), config.cause_cap, 1e-9);
 }
 
 // Beams penetrate both of its faces, from either side.

@@ -93,6 +93,19 @@ TEST(EvidenceByCause, AWallThatBeamsEndInIsNotMissing) {
   EXPECT_EQ(niche.total(config), config.cause_cap);
 }
 
+TEST(EvidenceByCause, AWallThatBeamsMeetIsNotMissing) {
+  const HypothesisComparisonConfig config;
+  const OutlierCause wall{OutlierCause::Kind::not_built, 3};
+  const auto met = [&](double share) {
+    EvidenceByCause evidence;
+    evidence.add(wall, 50.0, 40.0);
+    evidence.sums().at(wall).met = share * 40.0;
+    return evidence.total(config);
+  };
+  EXPECT_EQ(met(config.met_share), config.missing_wall_cap);
+  EXPECT_EQ(met(1.01 * config.met_share), config.cause_cap);
+}
+
 TEST(EvidenceByCause, AnObjectCountsOnceWhateverItStandsBefore) {
   const HypothesisComparisonConfig config = with_caps(4.0, 8.0);
   const auto box = [](double x0, double y0, double x1, double y1) {
@@ -126,6 +139,9 @@ TEST(EvidenceByCause, AnObjectThatThePlanOutlinesCountsForMore) {
   EXPECT_EQ(seen(0.5, 0.0), config.outlined_cap);
   EXPECT_EQ(seen(0.5, 100.0 * config.outline_share), config.outlined_cap);
   EXPECT_EQ(seen(0.5, 101.0 * config.outline_share), config.object_cap);
+  EXPECT_EQ(seen(0.5, 50.0), config.object_cap);
+  EXPECT_EQ(seen(0.5, 75.0), 0.5 * config.object_cap) << "most of it stands there at either pose";
+  EXPECT_EQ(seen(0.5, 100.0), 0.0);
   EXPECT_EQ(seen(1.2 * config.object_m, 0.0), 1.2 * config.object_cap) << "a front as long as furniture's";
 }
 
