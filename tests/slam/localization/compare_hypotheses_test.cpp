@@ -314,7 +314,7 @@ TEST(PairwiseLikelihoodRatio, AWallWithADoorElsewhereIsNoMissingWall) {
   synthetic::House built = synthetic::one_room(12.0, 4.0), planned = built;
   planned.boxes.push_back({{5.0, 0.0, 0.0}, {5.2, 4.0, 2.8}});
   built.boxes.push_back({{5.0, 0.0, 0.0}, {5.2, 1.5, 2.8}});
-  built.boxes.push_back({{5.0, 2.4, 0.0}, {5.2, 4.0, 2.8}});
+  built.boxes.push_back({{5.0, 1.8, 0.0}, {5.2, 4.0, 2.8}});
   const PlanIndex with = make_plan_index(synthetic::plan_of(built), "ground", {}),
                   without = make_plan_index(synthetic::plan_of(planned), "ground", {});
   const HypothesisComparisonConfig config;
