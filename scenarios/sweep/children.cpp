@@ -28,9 +28,20 @@ namespace {
 
 constexpr int environment_failed = 3, could_not_start = 127, first_signal = 128;
 
+/// Signals that the program catches end the child as they would any other, also those that came before this.
+void stop_catching(const sigset_t& before) {
+  for (const int caught : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    ::sigaction(caught, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) static_cast<void>(::signal(caught, SIG_DFL));
+  }
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 /// In the child: nothing here may allocate.
-[[noreturn]] void become(const char* program, char* const* argv, int log, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* argv, int log, pid_t parent, const sigset_t& mask) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  stop_catching(mask);
   if (::getppid() != parent) ::_exit(could_not_start);
   const int nowhere = ::open("/dev/null", O_RDWR);
   ::dup2(nowhere, STDIN_FILENO);
@@ -83,9 +94,13 @@ class Running {
     if (log.get() < 0)
       throw EnvironmentError(std::string("sweep: no memory for a run's messages: ") + std::strerror(errno));
     const pid_t parent = ::getpid();
+    sigset_t all, before;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of ours must not run in the child
     const pid_t child = ::fork();
-    if (child == 0) become(program.c_str(), argv.data(), log.get(), parent);
+    if (child == 0) become(program.c_str(), argv.data(), log.get(), parent, before);
     const int failure = errno;
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (child < 0) throw EnvironmentError(std::string("sweep: cannot start a run: ") + std::strerror(failure));
     children_.emplace(child, Child{index, std::move(log), Descriptor(end_descriptor(child))});
   }

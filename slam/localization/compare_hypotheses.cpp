@@ -106,9 +106,12 @@ void add_unexplained(const LocalizationScan& scan, const PredictedScan& better, 
       const double range = block.range[k], at_better = costs[k];
       if ((short_of_face & (1 << k)) == 0 || at_better < no_fit * config.max_nll_short) continue;
       const Eigen::Vector2d end = worse.sensor_I + worse.R_IH * (range * Eigen::Vector2d(block.x[k], block.y[k]));
-      for (auto& [near, sum] : objects)
-        if (near.contains(end) && !ends_at_planned_furniture(better, ray_of(better, scan, block, k), range, config))
-          sum->unexplained += config.weight * at_better;
+      // What is near two of them is near one object, see EvidenceByCause::total.
+      const auto object =
+          std::find_if(objects.begin(), objects.end(), [&](const auto& each) { return each.first.contains(end); });
+      if (object == objects.end()) continue;
+      if (ends_at_planned_furniture(better, ray_of(better, scan, block, k), range, config)) continue;
+      object->second->unexplained += config.weight * at_better;
     }
   }
 }

@@ -45,8 +45,8 @@ bool is_front(const UnplannedObject& object, const HypothesisComparisonConfig& c
   return object.length_m > config.object_m && object.flat > 0.5 * object.sum.log_likelihood;
 }
 
-/// 1, or down to 0 where the better pose leaves as much of the object unexplained as it explains: then one stands there
-/// at either pose.
+/// 1 until the better pose leaves half as much of the object unexplained as it explains, down to 0 where it leaves as
+/// much: then one stands there at either pose.
 double explained_share(const EvidenceByCause::Sum& sum) {
   return std::clamp(2.0 - 2.0 * sum.unexplained / sum.log_likelihood, 0.0, 1.0);
 }

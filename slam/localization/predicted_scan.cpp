@@ -9,8 +9,6 @@
 #include <span>
 #include <utility>
 
-#include "slam/localization/compare_hypotheses.h"
-
 namespace plumbline::slam {
 
 namespace {

@@ -5,12 +5,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/localization/comparison_config.h"
 #include "slam/plan_map/localization_scan.h"
 #include "slam/plan_map/plan_index.h"
 
 namespace plumbline::slam {
-
-struct HypothesisComparisonConfig;
 
 /// The plan is cast no farther than this beyond a return: the residual is at its cap there.
 constexpr float cast_beyond_m = 2.0F;

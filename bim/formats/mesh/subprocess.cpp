@@ -63,6 +63,9 @@ void bound(const SubprocessLimits& config) {
 [[noreturn]] void child(int pipe, const std::function<std::string()>& task, const SubprocessLimits& config) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGINT, SIGTERM, SIGPIPE, SIGXCPU, SIGALRM})
     (void)std::signal(signal, SIG_DFL);
+  struct sigaction hangup {};
+  (void)::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) (void)std::signal(SIGHUP, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   (void)::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -112,7 +115,11 @@ SubprocessResult run_in_subprocess(const std::function<std::string()>& task, con
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
   Descriptor from(ends[0]), to(ends[1]);
+  sigset_t all, before;
+  ::sigfillset(&all);
+  (void)::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of the caller's must not run in the child
   const pid_t pid = ::fork();
+  if (pid != 0) (void)::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (pid < 0) throw EnvironmentError(std::string("cannot make a process: ") + std::strerror(errno));
   if (pid == 0) child(to.get(), task, config);
   to.close_now();
