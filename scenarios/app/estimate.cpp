@@ -325,8 +325,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   warn_of_recording(options, *recording, answer.doubts, description.warnings);
   description.scans = answer.scans;
   write_answer(directory.staging(), answer.record, loaded, describe(description, *recording, input));
-  const std::string& staging = directory.staging();
-  const bool has_page = attempt_page(options.out, staging, [&] { write_estimate_page(staging); });
+  const bool paged = attempt_page(options.out, directory.staging(), [&] { write_estimate_page(directory.staging()); });
   write_file(
       directory.staging() + "/timings.json",
       write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1}));
@@ -335,7 +334,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
     print_note("plumbline: method '" + answer.record.name + "' crashed: " + answer.record.error);
     return 1;
   }
-  print_answer(options, *recording, input, description.height, answer, has_page);
+  print_answer(options, *recording, input, description.height, answer, paged);
   return 0;
 }
 

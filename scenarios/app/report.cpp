@@ -58,8 +58,7 @@ int report_estimate(const ReportArguments& options) {
   const std::string page(estimate_page_name);
   const std::vector<std::string> altered = altered_files(options.dir, {{page}, false, DirectoryKind::estimate});
   refuse_altered(options.dir, altered, options.unchecked);
-  write_estimate_page(options.dir, altered);
-  renew_manifest(options.dir, {page});
+  replace_files(options.dir, {{page, estimate_page(options.dir, altered)}});
   print("report: " + printable(options.dir) + "/" + page + "\n");
   return 0;
 }
