@@ -8,6 +8,7 @@
 #include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/run/digest_log.h"
@@ -29,7 +30,7 @@ DigestLog load(const std::string& dir) {
 void note_altered(const std::string& directory) {
   std::string names;
   if (std::filesystem::exists(directory + "/" + std::string(manifest_name)))
-    for (const std::string& name : altered_files(directory, {{"score.json"}, false}))
+    for (const std::string& name : altered_files(directory, {derived_files(), false}))
       names += (names.empty() ? "" : ", ") + name;
   if (names.empty()) return;
   print_note("plumbline: warning: " + directory + ": altered since they were written: " + names +

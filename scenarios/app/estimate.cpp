@@ -21,6 +21,7 @@
 #include "scenarios/app/estimate_command.h"
 #include "scenarios/app/estimate_description.h"
 #include "scenarios/app/open_recording.h"
+#include "scenarios/app/page_attempt.h"
 #include "scenarios/app/recording_check.h"
 #include "scenarios/app/recording_doubts.h"
 #include "scenarios/app/recording_summary.h"
@@ -30,7 +31,8 @@
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/state_names.h"
-#include "scenarios/report/estimate/estimate_builder.h"
+#include "scenarios/report/estimate/estimate_page.h"
+#include "scenarios/report/estimate/page_file.h"
 #include "scenarios/report/estimate/plan_drawing.h"
 #include "scenarios/run/method_runner.h"
 #include "scenarios/run/run_files.h"
@@ -210,6 +212,7 @@ EstimateDescription describe_given(const EstimateArguments& options, const slam:
   if (loaded.plan) {
     description.plan = name_of_path(options.plan);
     description.plan_furniture = loaded.furnished ? "as_planned" : "none";
+    description.plan_moved_by = loaded.moved_by;
     for (std::size_t i = 0; i < loaded.plan->storeys.size(); ++i)
       if (loaded.storey == loaded.plan->storeys[i].name) description.storey = loaded.drawing.plan.storeys[i].name;
   }
@@ -268,18 +271,17 @@ void warn_of_recording(const EstimateArguments& options, const slam::Recording& 
   warnings.insert(warnings.end(), all.begin() + static_cast<std::ptrdiff_t>(elsewhere), all.end());
 }
 
-/// Writes all but the timings. The page is made of the files, as `report` makes it.
+/// Writes all but the timings and the page.
 void write_answer(const std::string& dir, const MethodRecord& record, const LoadedPlan& loaded,
                   const std::string& description) {
   write_method(dir, record);
   write_file(dir + "/digests.csv", write_digests(record.digests));
   write_file(dir + "/estimate.yaml", description);
   if (loaded.plan) write_file(dir + "/" + std::string(plan_drawing_name), write_plan_drawing(loaded.drawing));
-  write_estimate_page(dir);
 }
 
 void print_answer(const EstimateArguments& options, const slam::Recording& recording, const slam::MethodInput& input,
-                  HeightSource height, const Answer& answer) {
+                  HeightSource height, const Answer& answer, bool has_page) {
   const MethodRecord& record = answer.record;
   print(words_of(recording.taken(), answer.scans, recording.has_odometry()) + "\n");
   if (height != HeightSource::description)
@@ -292,7 +294,7 @@ void print_answer(const EstimateArguments& options, const slam::Recording& recor
   if (!record.beliefs.empty())
     std::printf("%s at the end, %zu hypotheses\n", std::string(state_name(record.beliefs.back().state)).c_str(),
                 record.beliefs.back().hypotheses.size());
-  print("report: " + printable(options.out) + "/" + std::string(estimate_page_name) + "\n");
+  if (has_page) print("report: " + printable(options.out) + "/" + std::string(estimate_page_name) + "\n");
 }
 
 int estimate(EstimateArguments options, slam::MethodTable table) {
@@ -323,6 +325,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   warn_of_recording(options, *recording, answer.doubts, description.warnings);
   description.scans = answer.scans;
   write_answer(directory.staging(), answer.record, loaded, describe(description, *recording, input));
+  const bool paged = attempt_page(options.out, directory.staging(), [&] { write_estimate_page(directory.staging()); });
   write_file(
       directory.staging() + "/timings.json",
       write_timings({}, {answer.record}, {slam::wall_s() - start_s, slam::process_cpu_s(), answer.recorded_s, 1}));
@@ -331,7 +334,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
     print_note("plumbline: method '" + answer.record.name + "' crashed: " + answer.record.error);
     return 1;
   }
-  print_answer(options, *recording, input, description.height, answer);
+  print_answer(options, *recording, input, description.height, answer, paged);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bim/config/number_list.h"
 #include "bim/config/tree.h"
+#include "bim/config/utf8.h"
 #include "scenarios/app/degradation_options.h"
 
 namespace plumbline::scenarios {
@@ -14,6 +15,16 @@ namespace plumbline::scenarios {
 namespace {
 
 double to_hundredths(double value) { return std::round(100.0 * value) / 100.0; }
+
+/// Names of files and frames may be of any encoding, and YAML is UTF-8.
+Tree with_utf8(Tree tree) {
+  if (auto* text = std::get_if<std::string>(&tree.value)) *text = utf8_of_bytes(*text);
+  if (auto* list = std::get_if<Tree::List>(&tree.value))
+    for (Tree& entry : *list) entry = with_utf8(std::move(entry));
+  if (auto* map = std::get_if<Tree::Map>(&tree.value))
+    for (auto& [key, value] : *map) value = with_utf8(std::move(value));
+  return tree;
+}
 
 /// What was given, by names without their folders.
 Tree given_tree(const EstimateDescription& description, const slam::Recording& recording,
@@ -57,7 +68,7 @@ std::string describe(const EstimateDescription& description, const slam::Recordi
   if (info.walk) tree.set("walk", *info.walk);
   if (description.plan_moved_by) tree.set("plan_moved_by_m", number_list(*description.plan_moved_by));
   if (!input.config.is_null()) tree.set("config", input.config);
-  return write_yaml(tree);
+  return write_yaml(with_utf8(std::move(tree)));
 }
 
 }  // namespace plumbline::scenarios

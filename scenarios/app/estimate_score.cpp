@@ -14,22 +14,22 @@
 #include "bim/config/tree.h"
 #include "bim/errors.h"
 #include "bim/median.h"
+#include "scenarios/app/estimate_reference.h"
+#include "scenarios/app/page_attempt.h"
 #include "scenarios/app/plan_frame_score.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/metrics/metrics.h"
-#include "scenarios/metrics/quaternion_order.h"
 #include "scenarios/metrics/reference_axes.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/silence.h"
 #include "scenarios/metrics/trajectory.h"
-#include "scenarios/report/estimate/estimate_builder.h"
+#include "scenarios/report/estimate/estimate_page.h"
+#include "scenarios/report/estimate/page_file.h"
 #include "scenarios/report/svg.h"
 #include "scenarios/run/run_files.h"
-#include "slam/io/bags/bag.h"
-#include "slam/io/bags/bag_poses.h"
-#include "slam/io/recordings/trajectory.h"
 #include "slam/io/recordings/tum.h"
 
 namespace plumbline::scenarios {
@@ -48,50 +48,6 @@ std::string span_of(const Poses& poses) {
   return slam::format_stamp(poses.front().stamp) + " to " + slam::format_stamp(poses.back().stamp) + " s";
 }
 
-/// FILE, or BAG,topic=TOPIC, and frame=W where its poses are in the plan's frame.
-struct ReferenceSource {
-  std::string file, topic;
-  bool in_plan_frame = false;
-};
-
-ReferenceSource reference_source(std::string text) {
-  ReferenceSource source;
-  std::string frame;
-  const auto take = [&](std::string_view key, std::string& value) {
-    const std::size_t at = text.rfind(key);
-    if (at == std::string::npos || text.find(',', at + 1) != std::string::npos) return false;
-    if (!value.empty()) throw InputError({"--reference", 0, 0}, "has " + std::string(key.substr(1)) + " twice");
-    value = text.substr(at + key.size());
-    if (value.empty()) throw InputError({"--reference", 0, 0}, "has nothing behind " + std::string(key.substr(1)));
-    text.resize(at);
-    return true;
-  };
-  while (take(",topic=", source.topic) || take(",frame=", frame)) {
-  }
-  if (!frame.empty() && frame != "W" && frame != "M")
-    throw InputError({"--reference", 0, 0}, "'frame=" + frame + "' must be W, the plan's frame, or M, any other");
-  if (text.empty() && (!frame.empty() || !source.topic.empty()))
-    throw InputError({"--reference", 0, 0}, "names no file");
-  source.in_plan_frame = frame == "W";
-  source.file = std::move(text);
-  return source;
-}
-
-/// `estimate`: its stamps are those of a reference without times.
-Poses read_reference(const ReferenceSource& source, const Poses& estimate) {
-  const std::string& file = source.file;
-  const bool is_bag = slam::is_bag(file);
-  if (is_bag && source.topic.empty())
-    throw InputError({file, 0, 0}, "is a bag; name the topic of its poses: --reference " + file + ",topic=/TOPIC");
-  if (!is_bag && !source.topic.empty()) throw InputError({file, 0, 0}, "is no bag, and 'topic' is of one");
-  if (is_bag) return slam::read_bag_poses(file, source.topic);
-  std::vector<slam::Nanoseconds> scans;
-  for (const slam::StampedPose& pose : estimate) scans.push_back(pose.stamp);
-  Poses poses = slam::read_trajectory(read_text_file(file), file, scans);
-  if (poses.empty()) throw InputError({file, 0, 0}, "holds no pose");
-  return poses;
-}
-
 TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std::string& file) {
   TrajectoryScores scores{score::score_path(poses), {}};
   if (reference.empty() || poses.empty()) return scores;
@@ -101,17 +57,6 @@ TrajectoryScores score_one(const Poses& poses, const Poses& reference, const std
                                        " poses at times of the estimate; it is of " + span_of(reference) +
                                        ", the estimate of " + span_of(poses));
   return scores;
-}
-
-void check_order(const Poses& poses, const Poses& reference, const ReferenceSource& source) {
-  if (reference.empty() || !source.topic.empty()) return;
-  const std::string& file = source.file;
-  const slam::TrajectoryForm form = slam::trajectory_form(read_text_file(file));
-  const auto as_read = score::score_by_reference(reference, poses);
-  const auto other = score::score_by_reference(slam::in_other_order(reference, form), poses);
-  const auto over_a_metre = [](const auto& by) { return by ? by->rpe_1m_rmse_m : std::nullopt; };
-  if (const std::string why = score::wrong_order(form, over_a_metre(as_read), over_a_metre(other)); !why.empty())
-    throw InputError({file, 0, 0}, why);
 }
 
 /// Turns the axes of a reference to the robot's where they are another body's, and says what was done; empty: nothing.
@@ -282,13 +227,104 @@ int judge(const std::vector<GateSpec>& gates, const std::string& method, const C
   return failed;
 }
 
-/// The reference for the page; without one, that of a score before goes.
-void write_reference(const std::string& dir, const Poses& reference) {
-  const std::string path = dir + "/" + std::string(reference_name);
-  if (reference.empty())
-    std::filesystem::remove(path);
-  else
-    write_file(path, slam::write_tum(reference));
+/// What is known of an estimate, and by a reference where there is one.
+struct ScoredEstimate {
+  Poses reference;   ///< as it was compared
+  std::string axes;  ///< what is to say of its axes
+  TrajectoryScores causal, last;
+  Covered causal_covered, last_covered;
+  std::optional<score::Silence> silence;
+  std::optional<PlanFrameScore> in_plan_frame;
+  Tree numbers = Tree::map();  ///< score.json
+  std::string judged;          ///< its gates, in words
+  int failed = 0;
+};
+
+MethodRecord read_scorable(const std::string& dir) {
+  const std::vector<std::string> methods = estimates_in(dir);
+  if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
+  MethodRecord method = read_method(dir, methods.front());
+  if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
+  if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
+  return method;
+}
+
+/// Fills in all but the numbers and the gates; sets in the numbers what was done to the reference.
+void compare(const MethodRecord& method, const ReferenceSource& source, ScoredEstimate& scored) {
+  if (source.in_plan_frame && !method.localization)
+    throw InputError({"--reference", 0, 0}, "'frame=W' is of a localization in a plan; " + method.name + " is none");
+  Poses& reference = scored.reference;
+  if (!source.file.empty()) reference = read_reference(source, method.causal);
+  const bool positions_alone = !reference.empty() && score::is_without_orientation(reference, method.causal);
+  scored.axes = positions_alone ? "the reference has one orientation throughout: errors of steps, of rotation and over "
+                                  "a metre say nothing"
+                                : turn_to_robot(method.causal, reference, scored.numbers);
+  scored.causal = score_one(method.causal, reference, source.file);
+  scored.last = score_one(method.estimate.trajectory, reference, source.file);
+  scored.causal_covered = covered(method.causal, method.scans, reference);
+  scored.last_covered = covered(method.estimate.trajectory, method.scans, reference);
+  if (method.scans > 0 && !positions_alone)
+    scored.silence = score::score_silence(reference, method.causal, method.lost);
+  if (!source.in_plan_frame) return;
+  scored.in_plan_frame = score_in_plan_frame(method, reference, positions_alone, source.file);
+  scored.causal_covered.judged_share = scored.in_plan_frame->judged_share;
+}
+
+/// unchecked: files that were altered, of the estimate and of its recording.
+void set_numbers(const MethodRecord& method, const std::vector<std::string>& unchecked, ScoredEstimate& scored) {
+  Tree& tree = scored.numbers;
+  Tree names = Tree::list();
+  for (const std::string& name : unchecked) names.push(name);
+  if (!unchecked.empty()) tree.set("unchecked", std::move(names));
+  if (method.scans > 0)
+    tree.set("scans", method.scans)
+        .set("coverage", static_cast<double>(method.causal.size()) / method.scans)
+        .set("lost_share", 1.0 * method.lost_scans / method.scans)
+        .set("degenerate_share", 1.0 * method.degenerate_scans / method.scans);
+  if (!scored.reference.empty())
+    tree.set("reference", Tree::map()
+                              .set("poses", static_cast<std::int64_t>(scored.reference.size()))
+                              .set("length_m", score::score_path(scored.reference).length_m)
+                              .set("share", *scored.causal_covered.reference_share));
+  if (scored.silence) tree.set("silence", to_json(*scored.silence));
+  if (const auto& in_plan = scored.in_plan_frame) {
+    const Tree results = score::to_results(in_plan->score);
+    tree.set("verdict", in_plan->score.verdict).set("judged_share", in_plan->judged_share);
+    tree.set("localization", *results.find("localization"));
+  }
+  tree.set("causal", to_json(scored.causal));
+  if (scored.last.path.poses > 0) tree.set("final", to_json(scored.last));
+}
+
+/// All that score leaves, or nothing of it. Returns whether it has a page.
+bool write_score(const std::string& dir, const ScoredEstimate& scored, const std::vector<std::string>& altered) {
+  const NewScore fresh{write_json(scored.numbers) + "\n",
+                       scored.reference.empty() ? std::string() : slam::write_tum(scored.reference)};
+  std::optional<std::string> page, reference;
+  const bool has_page = attempt_page(dir, dir, [&] { page = estimate_page(dir, altered, fresh); });
+  if (!fresh.reference.empty()) reference = fresh.reference;
+  catch_interrupts();  // which nothing looks at: the files appear together
+  replace_files(dir, {{std::string(scores_name), fresh.scores},
+                      {std::string(reference_name), std::move(reference)},
+                      {std::string(estimate_page_name), std::move(page)}});
+  return has_page;
+}
+
+std::string words_of(const MethodRecord& method, const ScoredEstimate& scored) {
+  const Covered& covered = scored.causal_covered;
+  std::string text = method.name;
+  if (method.scans > 0)
+    text += ": LOST at " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
+  if (covered.poses < covered.scans) text += "; " + covered.words_of_poses();
+  if (!scored.reference.empty()) text += "; reference: " + std::to_string(scored.reference.size()) + " poses";
+  if (covered.reference_share.value_or(1.0) < 1.0) text += "; " + covered.words_of_reference();
+  if (!scored.axes.empty()) text += "\n" + scored.axes;
+  if (scored.in_plan_frame) text += "\n" + words_of(*scored.in_plan_frame);
+  if (scored.silence && scored.silence->off_at_s) text += "\n" + words_of(*scored.silence);
+  text += "\n          poses   path m straight   vert. m";
+  if (!scored.reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
+  text += "\n" + line_of("causal", scored.causal);
+  return scored.last.path.poses > 0 ? text + line_of("final", scored.last) : text;
 }
 
 }  // namespace
@@ -312,82 +348,22 @@ std::vector<std::string> unchecked_by_estimate(const std::string& dir) {
 int score_estimate(const std::string& dir, const std::string& reference_text, const std::vector<GateSpec>& gates,
                    bool unchecked) {
   check_names(gates);
-  const std::vector<std::string> methods = estimates_in(dir);
-  if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
-  const MethodRecord method = read_method(dir, methods.front());
   remove_abandoned(dir);
-  const std::vector<std::string> altered = altered_files(dir, {made_of_an_estimate()});
+  const std::vector<std::string> altered = altered_files(dir, {derived_files(), true, DirectoryKind::estimate});
   refuse_altered(dir, altered, unchecked);
-  if (method.crashed) throw InputError({dir, 0, 0}, "is of a method that crashed: " + method.error);
-  if (method.causal.empty()) throw InputError({dir, 0, 0}, "holds no pose; the method gave none");
-  const ReferenceSource source = reference_source(reference_text);
-  const std::string& reference_file = source.file;
-  if (source.in_plan_frame && !method.localization)
-    throw InputError({"--reference", 0, 0}, "'frame=W' is of a localization in a plan; " + method.name + " is none");
-  Poses reference = reference_file.empty() ? Poses() : read_reference(source, method.causal);
-  check_order(method.causal, reference, source);
-  Tree tree = Tree::map();
-  tree.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
-  const bool positions_alone = !reference.empty() && score::is_without_orientation(reference, method.causal);
-  const std::string axes = positions_alone ? std::string(
-                                                 "the reference has one orientation throughout: errors of steps, of "
-                                                 "rotation and over a metre say nothing")
-                                           : turn_to_robot(method.causal, reference, tree);
-  const TrajectoryScores causal = score_one(method.causal, reference, reference_file);
-  const TrajectoryScores last = score_one(method.estimate.trajectory, reference, reference_file);
-  Covered causal_covered = covered(method.causal, method.scans, reference);
-  const Covered last_covered = covered(method.estimate.trajectory, method.scans, reference);
-
-  Tree names = Tree::list();
-  for (const std::string& name : altered) names.push(name);
-  for (const std::string& name : unchecked_by_estimate(dir)) names.push("recording/" + name);
-  if (!names.as_list().empty()) tree.set("unchecked", std::move(names));
-  if (method.scans > 0)
-    tree.set("scans", method.scans)
-        .set("coverage", static_cast<double>(method.causal.size()) / method.scans)
-        .set("lost_share", 1.0 * method.lost_scans / method.scans)
-        .set("degenerate_share", 1.0 * method.degenerate_scans / method.scans);
-  if (!reference.empty())
-    tree.set("reference", Tree::map()
-                              .set("poses", static_cast<std::int64_t>(reference.size()))
-                              .set("length_m", score::score_path(reference).length_m)
-                              .set("share", *causal_covered.reference_share));
-  std::optional<score::Silence> silence;
-  if (method.scans > 0 && !positions_alone) silence = score::score_silence(reference, method.causal, method.lost);
-  if (silence) tree.set("silence", to_json(*silence));
-  std::optional<PlanFrameScore> in_plan_frame;
-  if (source.in_plan_frame) {
-    in_plan_frame = score_in_plan_frame(method, reference, positions_alone, reference_file);
-    causal_covered.judged_share = in_plan_frame->judged_share;
-    const Tree scored = score::to_results(in_plan_frame->score);
-    tree.set("verdict", in_plan_frame->score.verdict).set("judged_share", in_plan_frame->judged_share);
-    tree.set("localization", *scored.find("localization"));
-  }
-  tree.set("causal", to_json(causal));
-  if (last.path.poses > 0) tree.set("final", to_json(last));
-  std::string judged;
-  const int failed = judge(gates, method.name, causal_covered, last_covered, tree, judged);
-  write_file(dir + "/score.json", write_json(tree) + "\n");
-  write_reference(dir, reference);
-  write_estimate_page(dir, altered);
-  renew_manifest(dir, made_of_an_estimate());
-
-  std::string text = method.name;
-  if (method.scans > 0)
-    text += ": LOST at " + std::to_string(method.lost_scans) + " of " + std::to_string(method.scans) + " scans";
-  if (causal_covered.poses < causal_covered.scans) text += "; " + causal_covered.words_of_poses();
-  if (!reference.empty()) text += "; reference: " + std::to_string(reference.size()) + " poses";
-  if (causal_covered.reference_share.value_or(1.0) < 1.0) text += "; " + causal_covered.words_of_reference();
-  if (!axes.empty()) text += "\n" + axes;
-  if (in_plan_frame) text += "\n" + words_of(*in_plan_frame);
-  if (silence && silence->off_at_s) text += "\n" + words_of(*silence);
-  text += "\n          poses   path m straight   vert. m";
-  if (!reference.empty()) text += "  matched    ATE m   step m    max m step deg  max deg    RPE/m    deg/m";
-  text += "\n" + line_of("causal", causal);
-  if (last.path.poses > 0) text += line_of("final", last);
-  print(text + "scores: " + printable(dir) + "/score.json\nreport: " + printable(dir) + "/" +
-        std::string(estimate_page_name) + "\n" + judged);
-  return failed == 0 ? 0 : 1;
+  const MethodRecord method = read_scorable(dir);
+  ScoredEstimate scored;
+  scored.numbers.set("plumbline", PLUMBLINE_VERSION).set("method", method.name);
+  compare(method, reference_source(reference_text), scored);
+  std::vector<std::string> taken = altered;
+  for (const std::string& name : unchecked_by_estimate(dir)) taken.push_back("recording/" + name);
+  set_numbers(method, taken, scored);
+  scored.failed = judge(gates, method.name, scored.causal_covered, scored.last_covered, scored.numbers, scored.judged);
+  const bool has_page = write_score(dir, scored, altered);
+  const std::string start = printable(dir) + "/";
+  print(words_of(method, scored) + "scores: " + start + std::string(scores_name) +
+        (has_page ? "\nreport: " + start + std::string(estimate_page_name) : "") + "\n" + scored.judged);
+  return scored.failed == 0 ? 0 : 1;
 }
 
 }  // namespace plumbline::scenarios

@@ -52,8 +52,7 @@ Outside read_estimate_directory(const std::string& dir, const std::string& name,
   if (methods.size() != 1)
     throw InputError({dir, 0, 0}, methods.empty() ? "holds no estimate; give what plumbline estimate wrote"
                                                   : "holds several estimates; give a directory of plumbline estimate");
-  const std::vector<std::string> altered =
-      altered_files(dir, {{"score.json", "reference.tum", "report.html", "junit.xml", "results.json"}, false});
+  const std::vector<std::string> altered = altered_files(dir, {derived_files(), false, DirectoryKind::estimate});
   refuse_altered(dir, altered, unchecked);
   if (std::filesystem::exists(dir + "/estimate.yaml")) check_walk(dir, run_dir, run);
   Outside outside{read_method(dir, methods.front()), {}, {}};

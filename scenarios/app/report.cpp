@@ -14,7 +14,8 @@
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/progress.h"
 #include "scenarios/host/terminal.h"
-#include "scenarios/report/estimate/estimate_builder.h"
+#include "scenarios/report/estimate/estimate_page.h"
+#include "scenarios/report/estimate/page_file.h"
 #include "scenarios/report/replay/replay_page.h"
 #include "scenarios/report/report_builder.h"
 #include "scenarios/run/ground_truth_recorder.h"
@@ -55,10 +56,9 @@ int report_estimate(const ReportArguments& options) {
                                          "' is an estimate of a recording");
   remove_abandoned(options.dir);
   const std::string page(estimate_page_name);
-  const std::vector<std::string> altered = altered_files(options.dir, {{page}, false});
+  const std::vector<std::string> altered = altered_files(options.dir, {{page}, false, DirectoryKind::estimate});
   refuse_altered(options.dir, altered, options.unchecked);
-  write_estimate_page(options.dir, altered);
-  renew_manifest(options.dir, {page});
+  replace_files(options.dir, {{page, estimate_page(options.dir, altered)}});
   print("report: " + printable(options.dir) + "/" + page + "\n");
   return 0;
 }

@@ -45,23 +45,35 @@ std::vector<std::string> names_in(const std::string& path) {
   return names;
 }
 
+std::string temporary_of(const std::string& path) { return path + ".tmp"; }
+
+/// Writes a file beside its place, whole and on the disk.
+void write_beside(const std::string& path, std::string_view bytes) {
+  Descriptor file(::open(temporary_of(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.get() < 0) fail(path, "cannot be written", errno);
+  if (!write_all(file.get(), bytes)) fail(path, "cannot be written", errno);
+  if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
+  if (file.close_now() != 0) fail(path, "cannot be written", errno);
+}
+
 }  // namespace
 
-void write_file(const std::string& path, std::string_view bytes) {
+void write_file(const std::string& path, std::string_view bytes) { write_files({{path, bytes}}); }
+
+void write_files(const std::vector<FileBytes>& files) {
   std::error_code unknown;
-  const fs::file_status there = fs::symlink_status(path, unknown);
-  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
-    throw InputError({path, 0, 0}, "is no file that could be replaced; give another name");
-  const std::string temporary = path + ".tmp";
+  for (const FileBytes& file : files) {
+    const fs::file_status there = fs::symlink_status(file.path, unknown);
+    if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+      throw InputError({file.path, 0, 0}, "is no file that could be replaced; give another name");
+  }
   try {
-    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0) fail(path, "cannot be written", errno);
-    if (!write_all(file.get(), bytes)) fail(path, "cannot be written", errno);
-    if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
-    if (file.close_now() != 0) fail(path, "cannot be written", errno);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be written", errno);
+    for (const FileBytes& file : files) write_beside(file.path, file.bytes);
+    for (const FileBytes& file : files)
+      if (::rename(temporary_of(file.path).c_str(), file.path.c_str()) != 0)
+        fail(file.path, "cannot be written", errno);
   } catch (...) {
-    ::unlink(temporary.c_str());
+    for (const FileBytes& file : files) ::unlink(temporary_of(file.path).c_str());
     throw;
   }
 }
@@ -71,13 +83,15 @@ namespace {
 constexpr std::string_view method_name = "<method>", building_start = "building.";
 
 constexpr std::array<FileRow, 20> run_files = {{
-    {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere"},
+    {"report.html", "the report: maps, errors over time, verdicts, gates; it loads nothing from elsewhere", true, true},
     {"replay.html",
-     "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file"},
+     "with `--replay`, `report --3d` or a failed gate: the run in three dimensions at any of its times, in one file",
+     true, true},
     {"results.json",
      "scores and gates; it appears last, so that its directory is complete. `building.moved_by_m`: added to the "
-     "coordinates of a building in map coordinates; `shift_ns`: added to the stamps of an outside estimate, ns"},
-    {"junit.xml", "gates and methods as JUnit test cases"},
+     "coordinates of a building in map coordinates; `shift_ns`: added to the stamps of an outside estimate, ns",
+     true, true},
+    {"junit.xml", "gates and methods as JUnit test cases", true, true},
     {"<method>.tum",
      "the causal trajectory: each pose as first given, one a scan; SLAM scores use it; X_MR of SLAM, X_WR of a "
      "localization",
@@ -126,7 +140,7 @@ constexpr std::array<FileRow, 15> estimate_files = {{
      "the page: answer, path on the plan or the map, states and hypotheses over time, what to know of the recording; "
      "it "
      "loads nothing from elsewhere; `score` and `report` write it again",
-     false},
+     false, true},
     {manifest_name, "a digest of every file as it was written; `score` and `report` compare them", false},
     {"estimate.yaml",
      "the recording, method and seed of the estimate, which `score` compares with the run; under `input` what was "
@@ -138,10 +152,11 @@ constexpr std::array<FileRow, 15> estimate_files = {{
      "of a localization: walls, rooms, furniture and stairs of its plan as `report.html` draws them, m in W", false},
     {"reference.tum",
      "with `score --reference`: the reference as it was compared, in its own world frame, its axes those of the robot",
-     false},
+     false, true},
     {"score.json",
      "with `score`: path, share of the scans at which the method reported LOST, errors by a reference, and how soon it "
-     "reported LOST; under `localization` and `verdict` what a reference in the plan's frame (`frame=W`) says"},
+     "reported LOST; under `localization` and `verdict` what a reference in the plan's frame (`frame=W`) says",
+     true, true},
     {"<method>.tum", "the causal trajectory; X_MR of SLAM, X_WR of a localization", false},
     {"<method>.final.tum", "the trajectory after the last optimisation", false},
     {"<method>.map.ply", "the map: x, y, z as float32, m; in M of SLAM, in W of a localization", false},
@@ -212,6 +227,18 @@ std::span<const FileRow> files_of(DirectoryKind kind) {
   static constexpr std::array<std::span<const FileRow>, 6> rows = {run_files,   recording_files, estimate_files,
                                                                    sweep_files, shrink_files,    hunt_files};
   return rows[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::string> derived_files() {
+  std::vector<std::string> names;
+  for (const DirectoryKind kind : {DirectoryKind::run, DirectoryKind::estimate})
+    for (const FileRow& row : files_of(kind))
+      if (row.derived && std::find(names.begin(), names.end(), row.name) == names.end()) names.emplace_back(row.name);
+  return names;
+}
+
+bool is_file_of(DirectoryKind kind, std::string_view name) {
+  return name.find('/') == std::string_view::npos && names_of(kind).may_hold(name);
 }
 
 std::vector<std::string> make_folders(const std::string& path, const std::string& named) {

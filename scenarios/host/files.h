@@ -18,6 +18,14 @@ inline constexpr std::string_view recording_folder = "recording";
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);
 
+struct FileBytes {
+  std::string path;
+  std::string_view bytes;
+};
+/// Writes files of one directory together: none is put into place before all are written beside their places. Throws
+/// EnvironmentError, and InputError where one is no file.
+void write_files(const std::vector<FileBytes>& files);
+
 /// Makes a folder and those that it stands in; returns those that were not there, outermost first. Throws InputError
 /// where one of them is a link to nothing, else EnvironmentError in words about `named`, which it is in.
 std::vector<std::string> make_folders(const std::string& path, const std::string& named);
@@ -37,9 +45,14 @@ struct FileRow {
   std::string_view name;  ///< "<method>" stands for a method's name, "building.*" for the copy of a building
   std::string_view doc;   ///< one sentence without its full stop
   bool mark = true;       ///< a directory that holds it is of this kind; false where others may hold it, too
+  bool derived = false;   ///< `score` and `report` make it of the others
 };
 /// Every file of such a directory.
 [[nodiscard]] std::span<const FileRow> files_of(DirectoryKind kind);
+/// Names of what `score` and `report` make of the other files of a run or an estimate.
+[[nodiscard]] std::vector<std::string> derived_files();
+/// Whether a directory of this kind has a file of this name, by its table.
+[[nodiscard]] bool is_file_of(DirectoryKind kind, std::string_view name);
 
 /// The directory of a run, recording or estimate while it is being made. Files are written into a hidden folder inside
 /// it and moved into place together, results.json last, so that an interrupted run leaves nothing that looks complete.

@@ -24,13 +24,25 @@ using Entries = std::map<std::string, std::string>;  ///< digest by name
 
 std::string path_of(const std::string& directory) { return directory + "/" + std::string(manifest_name); }
 
+constexpr std::size_t part_bytes = 65536;  // a digest is of parts of this length
+
 std::string digest_of_file(const std::string& path) {
   const InputFile file = open_input_file(path);
-  std::array<std::uint8_t, 65536> bytes;
+  std::array<std::uint8_t, part_bytes> bytes;
   Digest digest;
   while (const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file.stream.get()))
     digest.add_bytes({bytes.data(), got});
   if (std::ferror(file.stream.get()) != 0) throw EnvironmentError(path + ": cannot be read");
+  return digest.hex();
+}
+
+/// That of a file with these bytes.
+std::string digest_of_bytes(std::string_view bytes) {
+  Digest digest;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(part_bytes, bytes.size()))) {
+    const std::string_view part = bytes.substr(0, part_bytes);
+    digest.add_bytes({reinterpret_cast<const std::uint8_t*>(part.data()), part.size()});
+  }
   return digest.hex();
 }
 
@@ -86,11 +98,10 @@ Manifest read_manifest(const std::string& directory) {
 }
 
 /// One that was altered stays so: it gets no line of its own.
-void write(const std::string& directory, const Manifest& manifest) {
+std::string text_of(const Manifest& manifest) {
   std::string text = "file,digest\n";
   for (const auto& [name, digest] : manifest.entries) text.append(name).append(",").append(digest).append("\n");
-  if (manifest.whole) text += last_line_of(text);
-  write_file(path_of(directory), text);
+  return manifest.whole ? text + last_line_of(text) : text;
 }
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
@@ -102,7 +113,7 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
 void write_manifest(const std::string& directory) {
   Manifest manifest{{}, true};
   for (const std::string& name : files_in(directory)) manifest.entries[name] = digest_of_file(directory + "/" + name);
-  write(directory, manifest);
+  write_file(path_of(directory), text_of(manifest));
 }
 
 std::vector<std::string> altered_files(const std::string& directory, const ManifestCheck& check) {
@@ -116,8 +127,10 @@ std::vector<std::string> altered_files(const std::string& directory, const Manif
     const std::string path = directory + "/" + name;
     if (!fs::is_regular_file(path) || digest_of_file(path) != digest) altered.push_back(name);
   }
-  for (const std::string& name : files_in(directory))
-    if (name.ends_with(".estimate.json") && !entries.contains(name)) altered.push_back(name);
+  for (const std::string& name : files_in(directory)) {
+    const bool counts = name.ends_with(".estimate.json") || (check.kind && is_file_of(*check.kind, name));
+    if (counts && !entries.contains(name) && !is_among(check.written_anew, name)) altered.push_back(name);
+  }
   std::sort(altered.begin(), altered.end());
   return altered;
 }
@@ -155,7 +168,25 @@ void renew_manifest(const std::string& directory, const std::vector<std::string>
     const std::string path = directory + "/" + name;
     if (is_listed(name) && fs::is_regular_file(path)) manifest.entries[name] = digest_of_file(path);
   }
-  write(directory, manifest);
+  write_file(path_of(directory), text_of(manifest));
+}
+
+void replace_files(const std::string& directory, const std::vector<NewFile>& files) {
+  std::optional<Manifest> manifest;
+  if (fs::exists(path_of(directory))) manifest = read_manifest(directory);
+  std::vector<FileBytes> written;
+  for (const NewFile& file : files) {
+    if (file.bytes) written.push_back({directory + "/" + file.name, *file.bytes});
+    if (!manifest) continue;
+    manifest->entries.erase(file.name);
+    if (!file.bytes) continue;
+    manifest->entries[file.name] = digest_of_bytes(*file.bytes);
+  }
+  const std::string list = manifest ? text_of(*manifest) : std::string();
+  if (manifest) written.push_back({path_of(directory), list});
+  write_files(written);
+  for (const NewFile& file : files)
+    if (!file.bytes) fs::remove(directory + "/" + file.name);
 }
 
 }  // namespace plumbline::scenarios

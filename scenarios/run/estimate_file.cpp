@@ -2,11 +2,13 @@
 #include "scenarios/run/estimate_file.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "bim/config/number_list.h"
 #include "scenarios/metrics/state_names.h"
 #include "scenarios/run/as_written.h"
+#include "slam/io/second.h"
 
 namespace plumbline::scenarios {
 
@@ -20,12 +22,21 @@ const Tree& child(const Tree& tree, std::string_view key) {
   return *found;
 }
 
+constexpr double most_length_m = 1e8;  // as of a pose
+
+double read_number(const Tree& tree, double most = most_length_m) {
+  const double value = tree.as_double();
+  if (!(std::abs(value) <= most))
+    throw InputError(tree.mark, "a number of at most " + format_number(most) + " is expected");
+  return value;
+}
+
 template <std::size_t N>
-std::array<double, N> read_numbers(const Tree& tree) {
+std::array<double, N> read_numbers(const Tree& tree, double most = most_length_m) {
   const Tree::List& list = tree.as_list();
   if (list.size() != N) throw InputError(tree.mark, std::to_string(N) + " numbers are expected");
   std::array<double, N> values{};
-  for (std::size_t i = 0; i < N; ++i) values[i] = list[i].as_double();
+  for (std::size_t i = 0; i < N; ++i) values[i] = read_number(list[i], most);
   return values;
 }
 
@@ -50,6 +61,12 @@ Pose read_pose(const Tree& tree) {
   const auto v = read_numbers<7>(tree);
   return {Eigen::Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]}};
 }
+slam::Nanoseconds read_stamp(const Tree& tree) {
+  const slam::Nanoseconds stamp = tree.as_int();
+  if (stamp <= -slam::furthest_stamp || stamp >= slam::furthest_stamp)
+    throw InputError(tree.mark, "a time of less than 4e18 ns is expected");
+  return stamp;
+}
 
 template <std::size_t N>
 int index_of(const Tree& tree, const std::array<std::string_view, N>& names) {
@@ -68,11 +85,11 @@ Tree write(const slam::PlaneNode& plane) {
 slam::PlaneNode read_plane(const Tree& tree) {
   slam::PlaneNode plane;
   plane.id = read_int(child(tree, "id"));
-  plane.plane_F = {read_3d(child(tree, "n")), child(tree, "d").as_double()};
+  plane.plane_F = {read_3d(child(tree, "n")), read_number(child(tree, "d"))};
   plane.p0 = read_2d(child(tree, "p0"));
   plane.p1 = read_2d(child(tree, "p1"));
-  plane.z0 = child(tree, "z0").as_double();
-  plane.z1 = child(tree, "z1").as_double();
+  plane.z0 = read_number(child(tree, "z0"));
+  plane.z1 = read_number(child(tree, "z1"));
   plane.observations = read_int(child(tree, "observations"));
   return plane;
 }
@@ -106,7 +123,7 @@ Tree write(const slam::FloorNode& floor) {
 slam::FloorNode read_floor(const Tree& tree) {
   return {read_int(child(tree, "id")),
           read_3d(child(tree, "center")),
-          {read_3d(child(tree, "n")), child(tree, "d").as_double()}};
+          {read_3d(child(tree, "n")), read_number(child(tree, "d"))}};
 }
 
 Tree write(const slam::LoopEdge& loop) {
@@ -114,7 +131,7 @@ Tree write(const slam::LoopEdge& loop) {
 }
 
 slam::LoopEdge read_loop(const Tree& tree) {
-  return {child(tree, "from_ns").as_int(), child(tree, "to_ns").as_int(), read_pose(child(tree, "pose"))};
+  return {read_stamp(child(tree, "from_ns")), read_stamp(child(tree, "to_ns")), read_pose(child(tree, "pose"))};
 }
 
 /// One list of x, y, z, plane, x, ...
@@ -128,7 +145,7 @@ Tree write(const slam::SegmentedScan& scan) {
 }
 
 slam::SegmentedScan read_segmented(const Tree& tree) {
-  slam::SegmentedScan scan{child(tree, "stamp_ns").as_int(), read_3d(child(tree, "sensor")), {}, {}};
+  slam::SegmentedScan scan{read_stamp(child(tree, "stamp_ns")), read_3d(child(tree, "sensor")), {}, {}};
   const Tree& values = child(tree, "xyz_mm_plane");
   const Tree::List& list = values.as_list();
   if (list.size() % 4 != 0) throw InputError(values.mark, "four numbers a point are expected");
@@ -182,7 +199,7 @@ std::vector<score::LostSpan> read_spans(const Tree& tree) {
   for (const Tree& entry : tree.as_list()) {
     const Tree::List& ends = entry.as_list();
     if (ends.size() != 2) throw InputError(entry.mark, "2 numbers are expected");
-    const score::LostSpan span{ends[0].as_int(), ends[1].as_int()};
+    const score::LostSpan span{read_stamp(ends[0]), read_stamp(ends[1])};
     if (span.to < span.from || (!spans.empty() && span.from < spans.back().to))
       throw InputError(entry.mark, "times must be in order");
     spans.push_back(span);
@@ -199,10 +216,10 @@ Tree write_list(const std::vector<T>& values) {
 
 slam::Hypothesis read_hypothesis(const Tree& tree) {
   slam::Hypothesis hypothesis;
-  hypothesis.mass = child(tree, "mass").as_double();
+  hypothesis.mass = read_number(child(tree, "mass"));
   hypothesis.room = child(tree, "room").as_string();
   hypothesis.X_WR = read_pose(child(tree, "pose"));
-  const auto c = read_numbers<9>(child(tree, "covariance"));
+  const auto c = read_numbers<9>(child(tree, "covariance"), most_length_m * most_length_m);
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col) hypothesis.covariance(row, col) = c[static_cast<std::size_t>(3 * row + col)];
   if (const Tree* walls = tree.find("walls"))
@@ -212,7 +229,7 @@ slam::Hypothesis read_hypothesis(const Tree& tree) {
 
 BeliefRecord read_belief(const Tree& tree) {
   BeliefRecord belief;
-  belief.stamp = child(tree, "stamp_ns").as_int();
+  belief.stamp = read_stamp(child(tree, "stamp_ns"));
   belief.state = static_cast<slam::State>(index_of(child(tree, "state"), state_names));
   for (const Tree& h : child(tree, "hypotheses").as_list()) belief.hypotheses.push_back(read_hypothesis(h));
   if (const Tree* particles = tree.find("particles"))
@@ -259,7 +276,7 @@ void read_estimate(std::string_view text, const std::string& file, MethodRecord&
     method.crashed = true;
     method.error = error->as_string();
   }
-  if (const Tree* shift = tree.find("shift_ns")) method.shift = shift->as_int();
+  if (const Tree* shift = tree.find("shift_ns")) method.shift = read_stamp(*shift);
   if (const Tree* scans = tree.find("scans")) {
     method.scans = read_int(*scans, 0);
     method.lost_scans = read_int(child(tree, "lost_scans"), 0);

@@ -160,6 +160,127 @@ TEST_F(EstimatePages, OfDamagedOrOtherDirectoriesAreRefused) {
   EXPECT_NE(damaged.err.find("plan.json"), std::string::npos) << damaged.err;
   fs::remove(dir + "/plan.json");
   EXPECT_EQ(plumbline({"report", dir, "--unchecked"}).code, 0) << "an estimate of an earlier version has none";
+  EXPECT_NE(read_file(dir + "/report.html").find("this estimate has no plan.json"), std::string::npos);
+}
+
+TEST_F(EstimatePages, SayByHowMuchAPlanOfAMapIsMoved) {
+  const std::string ifc = at("map.ifc"), local = "#18=IFCLOCALPLACEMENT($,#7);";
+  ASSERT_EQ(plumbline({"inspect", project_file("tests/system/short.plan.yaml"), "--ifc", ifc}).code, 0);
+  std::string text = read_file(ifc);
+  const std::size_t site = text.find(local);
+  ASSERT_NE(site, std::string::npos);
+  text.replace(site, local.size(),
+               "#99001=IFCCARTESIANPOINT((500000.,5000000.,0.));\n#99002=IFCAXIS2PLACEMENT3D(#99001,$,$);\n"
+               "#18=IFCLOCALPLACEMENT($,#99002);");
+  write_file(ifc, text);
+  const Outcome made = estimate("s_graph_localization", {"--plan", ifc}, "map");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string yaml = read_file(at("map") + "/estimate.yaml");
+  EXPECT_NE(yaml.find("plan_moved_by_m: [-500005, -5000004, 0]"), std::string::npos) << yaml;
+  EXPECT_NE(page("map").find("<dt>plan moved by, m</dt><dd>-500005, -5000004, 0</dd>"), std::string::npos);
+}
+
+TEST_F(EstimatePages, ShowNamesThatAreNoUtf8) {
+  const std::string recording = at("walk_\xE4"), plan = at("pl\xE4n.plan.yaml");
+  fs::copy(walk(), recording, fs::copy_options::recursive);
+  write_file(plan, read_file(project_file("tests/system/short.plan.yaml")));
+  const Outcome made =
+      plumbline({"estimate", recording, "--method", "s_graph_localization", "--plan", plan, "-o", at("latin")});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(page("latin").find("<dt>recording</dt><dd>walk_\u00E4</dd>"), std::string::npos);
+  EXPECT_NE(page("latin").find("<dt>plan</dt><dd>pl\u00E4n.plan.yaml</dd>"), std::string::npos);
+  EXPECT_EQ(plumbline({"report", at("latin")}).code, 0);
+}
+
+TEST_F(EstimatePages, ThatCannotBeMadeCostNoEstimate) {
+  const std::string out = at("no_page");
+  Setting setting;
+  setting.largest_file = 25'000;  // less than a page, more than any other file of so few returns
+  const Outcome made = plumbline(
+      {"estimate", walk(), "--method", "odometry", "--max-range", "2", "--every", "10", "--one-of", "16", "-o", out},
+      setting);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("warning: " + out + ": its page cannot be made: "), std::string::npos) << made.err;
+  EXPECT_EQ(made.err.find(".partial"), std::string::npos) << made.err;
+  EXPECT_EQ(made.out.find("report: "), std::string::npos) << made.out;
+  EXPECT_FALSE(fs::exists(out + "/report.html"));
+  EXPECT_TRUE(fs::exists(out + "/odometry.tum"));
+  EXPECT_EQ(plumbline({"report", out}).code, 0) << "it is made later";
+  EXPECT_TRUE(fs::exists(out + "/report.html"));
+}
+
+TEST_F(EstimatePages, BelieveNoFileThatWasAdded) {
+  const std::string gates =
+      R"({"causal": {"poses": 1}, "gates": [{"metric": "a", "method": "m", "op": "<=", "limit": 1, "passed": false,
+      "see": "javascript:0"}]
+})";
+  const std::string truth = read_file(walk() + "/truth.tum");
+  const std::vector<std::pair<std::string, std::string>> added = {
+      {"score.json", gates}, {"reference.tum", truth}, {"plan.json", read_file(at("plan") + "/plan.json")}};
+  for (const auto& [name, text] : added) {
+    const std::string dir = copy("slam");
+    write_file(dir + "/" + name, text);
+    const Outcome refused = plumbline({"report", dir});
+    EXPECT_EQ(refused.code, 2) << name;
+    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+    const Outcome taken = plumbline({"report", dir, "--unchecked"});
+    EXPECT_EQ(taken.code, 0) << taken.err;
+    const std::string shown = read_file(dir + "/report.html");
+    EXPECT_NE(shown.find("altered after they were written: " + name), std::string::npos);
+    EXPECT_EQ(shown.find("javascript:"), std::string::npos);
+    EXPECT_EQ(plumbline({"report", dir}).code, 2) << "what was added stays so";
+  }
+}
+
+TEST_F(EstimatePages, OfAScoreThatIsDamagedAreRefused) {
+  const std::string dir = copy("plan");
+  for (const char* text : {R"({"gates":[1]})", R"({"gates":[{"metric":"a"}]})",
+                           R"({"causal":{"ate_aligned_rmse_m":1e300}})", R"({"causal":[]})", R"({"verdict":[]})"}) {
+    write_file(dir + "/score.json", text);
+    const Outcome refused = plumbline({"report", dir, "--unchecked"});
+    EXPECT_EQ(refused.code, 2) << text << refused.err;
+    EXPECT_NE(refused.err.find("score.json"), std::string::npos) << refused.err;
+  }
+  fs::remove(dir + "/score.json");
+  const std::string ticks = "tick_ns,stage,digest\n9223372036854775807,a,0000000000000000\n";
+  write_file(dir + "/digests.csv", ticks);
+  const Outcome late = plumbline({"report", dir, "--unchecked"});
+  EXPECT_EQ(late.code, 2) << late.err;
+  EXPECT_NE(late.err.find("digests.csv"), std::string::npos) << late.err;
+}
+
+TEST_F(EstimatePages, ThatCannotBeMadeCostNoScore) {
+  const std::string dir = copy("slam");
+  fs::remove(dir + "/digests.csv");
+  EXPECT_EQ(plumbline({"score", dir}).code, 2);
+  const Outcome scored = plumbline({"score", dir, "--unchecked"});
+  EXPECT_EQ(scored.code, 0) << scored.err;
+  EXPECT_NE(scored.out.find("causal"), std::string::npos) << scored.out;
+  EXPECT_NE(scored.out.find("scores: " + dir + "/score.json"), std::string::npos) << scored.out;
+  EXPECT_EQ(scored.out.find("report: "), std::string::npos) << scored.out;
+  EXPECT_NE(scored.err.find("its page cannot be made: digests.csv: "), std::string::npos) << scored.err;
+  EXPECT_FALSE(fs::exists(dir + "/report.html")) << "an old page shows no new score";
+}
+
+TEST_F(EstimatePages, AreWrittenWithAllOfAScoreOrWithNothing) {
+  const std::string dir = copy("slam"), manifest = read_file(dir + "/manifest.csv");
+  Setting setting;
+  setting.largest_file = 60'000;  // the score and the reference, not the page
+  const Outcome full = plumbline({"score", dir, "--reference", at("slam") + "/s_graphs_plus.tum"}, setting);
+  EXPECT_EQ(full.code, 3) << full.err;
+  EXPECT_NE(full.err.find("report.html"), std::string::npos) << full.err;
+  EXPECT_FALSE(fs::exists(dir + "/score.json"));
+  EXPECT_FALSE(fs::exists(dir + "/reference.tum"));
+  EXPECT_TRUE(read_file(dir + "/report.html") == page("slam"));
+  EXPECT_EQ(read_file(dir + "/manifest.csv"), manifest);
+}
+
+TEST_F(EstimatePages, ThatAreGoneAreNoDifference) {
+  const std::string dir = copy("slam");
+  fs::remove(dir + "/report.html");
+  const Outcome equal = plumbline({"diff", at("slam"), dir});
+  EXPECT_EQ(equal.out, "equal\n");
+  EXPECT_EQ(equal.err, "");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "bim/median.h"
-#include "scenarios/host/files.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
@@ -203,10 +202,11 @@ bool mark_hypotheses(const MethodRecord& method, ReportInput& input) {
 Tree results_by_score(const EstimateFiles& files) {
   const MethodRecord& method = files.method;
   Tree numbers = Tree::map(), results = Tree::map();
-  if (files.scores.is_map()) {
-    for (const auto& [key, value] : files.scores.as_map())
-      if (key != "plumbline" && key != "method" && key != "gates") numbers.set(key, value);
-    if (const Tree* gates = files.scores.find("gates")) results.set("gates", *gates);
+  if (files.scores) {
+    numbers = files.scores->numbers;
+    Tree gates = Tree::list();
+    for (const score::GateResult& gate : files.scores->gates) gates.push(score::to_results(gate));
+    results.set("gates", std::move(gates));
   } else if (!method.causal.empty()) {
     numbers.set("causal", path_numbers(method.causal));
     if (!method.estimate.trajectory.empty()) numbers.set("final", path_numbers(method.estimate.trajectory));
@@ -230,7 +230,7 @@ void take_plan(EstimateFiles& files, ReportInput& input) {
 std::size_t take_paths(const EstimateFiles& files, ReportInput& input, ReportMethod& shown) {
   const MethodRecord& method = files.method;
   std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
-  const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
+  const bool in_plan_frame = files.scores && files.scores->numbers.find("verdict") != nullptr;
   input.truth =
       lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
   for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
@@ -260,8 +260,8 @@ ReportMethod take_method(const EstimateFiles& files, EstimatePage& page) {
 
 }  // namespace
 
-EstimatePage read_estimate_page(const std::string& dir) {
-  EstimateFiles files = read_estimate_files(dir);
+EstimatePage read_estimate_page(const std::string& dir, const std::optional<NewScore>& fresh) {
+  EstimateFiles files = read_estimate_files(dir, fresh);
   const MethodRecord& method = files.method;
   const bool knows_scans = !files.scans.empty();
   if (!knows_scans) files.scans.push_back(0);  // of a method that crashed before its first
@@ -274,7 +274,7 @@ EstimatePage read_estimate_page(const std::string& dir) {
   input.storeys = shown_storeys(files, input.plan, input.methods.front().samples);
   input.results = results_by_score(files);
   lay_map(method.estimate.map_F, input);
-  page.has_numbers = files.scores.is_map() || !method.causal.empty();
+  page.has_numbers = files.scores || !method.causal.empty();
   page.has_map = !method.estimate.map_F.empty();
   page.has_marks = mark_hypotheses(method, input);
   constexpr double marks_across = 60.0;
@@ -282,7 +282,7 @@ EstimatePage read_estimate_page(const std::string& dir) {
   input.mark_scale = std::max(1.0, (box.max - box.min).norm() / marks_across);
   page.answer = answer_sentence(method, page.spans);
   page.state = final_state(method, page.spans);
-  page.by_reference = reference_sentence(files.scores);
+  if (files.scores) page.by_reference = reference_sentence(*files.scores);
   page.pauses = scan_pauses(files.scans);
   page.first_scan = files.scans.front();
   if (knows_scans)
@@ -290,16 +290,6 @@ EstimatePage read_estimate_page(const std::string& dir) {
       page.scans_s.push_back(slam::seconds(stamp - files.scans.front()));
   page.facts = std::move(files.facts);
   return page;
-}
-
-std::vector<std::string> made_of_an_estimate() {
-  return {std::string(estimate_page_name), "score.json", std::string(reference_name)};
-}
-
-void write_estimate_page(const std::string& dir, const std::vector<std::string>& altered) {
-  EstimatePage page = read_estimate_page(dir);
-  page.altered = altered;
-  write_file(dir + "/" + std::string(estimate_page_name), render_estimate(page));
 }
 
 }  // namespace plumbline::scenarios

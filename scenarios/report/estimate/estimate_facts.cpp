@@ -3,7 +3,9 @@
 
 #include <string_view>
 
+#include "bim/errors.h"
 #include "scenarios/report/results.h"
+#include "slam/io/second.h"
 
 namespace plumbline::scenarios {
 
@@ -12,11 +14,13 @@ namespace {
 std::string fact_at(const Tree* tree, std::string_view key) {
   const Tree* value = tree == nullptr ? nullptr : tree->find(key);
   if (value == nullptr || value->is_null()) return "";
-  if (value->is_scalar())
-    return std::holds_alternative<std::string>(value->value) ? value->as_string() : write_json(*value, 0);
+  const auto text = [](const Tree& scalar) {
+    return std::holds_alternative<std::string>(scalar.value) ? scalar.as_string() : write_json(scalar, 0);
+  };
+  if (value->is_scalar()) return text(*value);
   std::string list;
   if (!value->is_list()) return list;
-  for (const Tree& entry : value->as_list()) list += (list.empty() ? "" : ", ") + entry.as_string();
+  for (const Tree& entry : value->as_list()) list += (list.empty() ? "" : ", ") + text(entry);
   return list;
 }
 
@@ -107,7 +111,11 @@ EstimateFacts estimate_facts(const Tree& estimate) {
     for (std::string& said : sentences_of(estimate, key)) facts.warnings.push_back(std::move(said));
   facts.unchecked = sentences_of(estimate, "unchecked");
   if (const Tree* config = estimate.find("config")) facts.config = write_yaml(*config);
-  if (const Tree* origin = input == nullptr ? nullptr : input->find("origin_ns")) facts.origin = origin->as_int();
+  if (const Tree* origin = input == nullptr ? nullptr : input->find("origin_ns")) {
+    facts.origin = origin->as_int();
+    if (facts.origin <= -slam::furthest_stamp || facts.origin >= slam::furthest_stamp)
+      throw InputError(origin->mark, "a time of less than 4e18 ns is expected");
+  }
   return facts;
 }
 

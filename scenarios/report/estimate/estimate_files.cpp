@@ -11,6 +11,7 @@
 #include "scenarios/report/svg.h"
 #include "scenarios/run/run_files.h"
 #include "slam/io/recordings/tum.h"
+#include "slam/io/second.h"
 
 namespace plumbline::scenarios {
 
@@ -21,11 +22,19 @@ std::string text_of_file(const std::string& path) {
   return std::filesystem::exists(path, error) ? read_text_file(path) : std::string();
 }
 
+bool is_stamp(slam::Nanoseconds stamp) { return stamp > -slam::furthest_stamp && stamp < slam::furthest_stamp; }
+
 /// Stamps of the scans by the digests that each left; without them, of the answers.
 std::vector<slam::Nanoseconds> scan_stamps(const DigestLog& digests, const MethodRecord& method,
-                                           slam::Nanoseconds origin) {
+                                           slam::Nanoseconds origin, const std::string& file) {
   std::set<slam::Nanoseconds> stamps;
-  for (const DigestEntry& entry : digests) stamps.insert(entry.tick + origin);
+  for (const DigestEntry& entry : digests) {
+    // Each is less than the furthest stamp, so that the sum fits.
+    if (!is_stamp(entry.tick) || !is_stamp(entry.tick + origin))
+      throw InputError({file, 0, 0}, "has a time of " + std::to_string(entry.tick) +
+                                         " ns; with origin_ns of estimate.yaml it must be less than 4e18");
+    stamps.insert(entry.tick + origin);
+  }
   if (stamps.empty()) {
     for (const slam::StampedPose& pose : method.causal) stamps.insert(pose.stamp);
     for (const BeliefRecord& belief : method.beliefs) stamps.insert(belief.stamp);
@@ -43,26 +52,26 @@ std::string silence_sentence(const Tree* silence) {
 
 }  // namespace
 
-EstimateFiles read_estimate_files(const std::string& dir) {
+EstimateFiles read_estimate_files(const std::string& dir, const std::optional<NewScore>& fresh) {
   const std::vector<std::string> methods = estimates_in(dir);
   if (methods.size() != 1) throw InputError({dir, 0, 0}, "holds no single estimate; make it again");
   EstimateFiles files;
   files.method = read_method(dir, methods.front());
   const std::string yaml = dir + "/estimate.yaml", digests = dir + "/digests.csv";
   files.facts = estimate_facts(read_yaml(read_text_file(yaml), yaml));
-  files.scans = scan_stamps(read_digests(read_text_file(digests), digests), files.method, files.facts.origin);
-  const std::string plan = dir + "/" + std::string(plan_drawing_name),
+  files.scans = scan_stamps(read_digests(read_text_file(digests), digests), files.method, files.facts.origin, digests);
+  const std::string plan = dir + "/" + std::string(plan_drawing_name), scores = dir + "/" + std::string(scores_name),
                     reference = dir + "/" + std::string(reference_name);
   if (const std::string text = text_of_file(plan); !text.empty()) files.plan = read_plan_drawing(text, plan);
-  const std::string scores = dir + "/score.json";
-  if (const std::string text = text_of_file(scores); !text.empty()) files.scores = read_json(text, scores);
-  if (const std::string text = text_of_file(reference); !text.empty())
-    files.reference = slam::read_tum(text, reference);
+  const NewScore score = fresh ? *fresh : NewScore{text_of_file(scores), text_of_file(reference)};
+  if (!score.scores.empty()) files.scores = read_estimate_scores(score.scores, scores);
+  if (!score.reference.empty()) files.reference = slam::read_tum(score.reference, reference);
   return files;
 }
 
-std::string reference_sentence(const Tree& scores) {
-  if (!scores.is_map() || scores.find("reference") == nullptr) return "";
+std::string reference_sentence(const EstimateScores& by) {
+  const Tree& scores = by.numbers;
+  if (scores.find("reference") == nullptr) return "";
   std::string text;
   const auto metres = [](double m) { return m < 1.0 ? svg::number(100.0 * m, 1) + " cm" : svg::number(m, 2) + " m"; };
   const Tree* localization = scores.find("localization");

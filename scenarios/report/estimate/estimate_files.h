@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bim/config/tree.h"
 #include "scenarios/report/estimate/estimate_facts.h"
 #include "scenarios/report/estimate/plan_drawing.h"
+#include "scenarios/report/estimate/score_file.h"
 #include "scenarios/run/record.h"
 
 namespace plumbline::scenarios {
@@ -18,14 +18,15 @@ struct EstimateFiles {
   EstimateFacts facts;
   std::vector<slam::Nanoseconds> scans;  ///< on the recording's clock
   std::optional<PlanDrawing> plan;
-  Tree scores;  ///< score.json; null where there is none
+  std::optional<EstimateScores> scores;
   std::vector<slam::StampedPose> reference;
 };
 
-/// Throws InputError at the file that is missing or damaged. What an earlier version did not write is empty.
-[[nodiscard]] EstimateFiles read_estimate_files(const std::string& dir);
+/// Throws InputError at the file that is missing or damaged. What an earlier version did not write is empty. fresh: in
+/// place of the files of a score.
+[[nodiscard]] EstimateFiles read_estimate_files(const std::string& dir, const std::optional<NewScore>& fresh = {});
 
-/// What the reference of a score says of the method, in a sentence or two; of score.json. Empty without a reference.
-[[nodiscard]] std::string reference_sentence(const Tree& scores);
+/// What the reference of a score says of the method, in a sentence or two. Empty without a reference.
+[[nodiscard]] std::string reference_sentence(const EstimateScores& by);
 
 }  // namespace plumbline::scenarios

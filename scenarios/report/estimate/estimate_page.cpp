@@ -81,12 +81,19 @@ std::string map_controls(bool byerror, bool shown) {
          "</div>";
 }
 
+/// Why there is no plan where there should be one.
+std::string no_plan_note(const EstimatePage& page) {
+  if (!method_of(page).localization || page.input.has_plan) return "";
+  return "<p class=\"facts\">The plan is not drawn: this estimate has no plan.json, which earlier versions did not "
+         "write.</p>";
+}
+
 std::string map_card(const EstimatePage& page, const MapBox& box) {
   const ReportInput& input = page.input;
   const bool has_errors = !input.truth.empty();
   if (!input.has_plan && !page.has_map && method_of(page).samples.empty())
-    return "<section class=\"card\"><p>There is no path and no map to draw.</p>" + map_controls(false, false) +
-           "</section>";
+    return "<section class=\"card\"><p>There is no path and no map to draw.</p>" + no_plan_note(page) +
+           map_controls(false, false) + "</section>";
   std::string more_key;
   const auto swatch_of = [](const std::string& ink, const std::string& label) {
     return "<span><i class=\"swatch\" style=\"background:" + ink + "\"></i>" + label + "</span>";
@@ -100,8 +107,8 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
   if (page.has_marks) more_key += "<span>arrow: hypothesis at the end, with its share</span>";
   if (page.thinned > 1) more_key += "<span>one pose in " + std::to_string(page.thinned) + " is drawn</span>";
   return "<section class=\"card\">" + draw_maps(input, box) + map_key(input) +
-         (more_key.empty() ? "" : "<div class=\"key\">" + more_key + "</div>") + map_controls(has_errors, true) +
-         "</section>";
+         (more_key.empty() ? "" : "<div class=\"key\">" + more_key + "</div>") + no_plan_note(page) +
+         map_controls(has_errors, true) + "</section>";
 }
 
 std::string given_card(const EstimatePage& page) {
@@ -137,7 +144,8 @@ std::string how_to_repeat(const EstimateFacts& facts) {
     out += "<section class=\"card\"><h2>To make it again</h2><p><code class=\"command\">" + svg::escape(facts.command) +
            "</code> <button type=\"button\" data-copy=\"" + svg::escape(facts.command) +
            "\">Copy</button></p><p class=\"facts\">Files are named without their folders. The same recording, plan and "
-           "version of the program give the same bytes; what it cost stands in timings.json.</p></section>";
+           "version of the program give the same bytes under the same names and with the same command; what it cost "
+           "stands in timings.json.</p></section>";
   if (!facts.config.empty())
     out += "<details class=\"card\"><summary>All values of the method</summary><pre><code>" +
            svg::escape(facts.config) + "</code></pre></details>";

@@ -12,6 +12,7 @@
 namespace plumbline::scenarios {
 
 inline constexpr std::string_view estimate_page_name = "report.html";
+inline constexpr std::string_view scores_name = "score.json";
 /// A reference that score was given, as it was compared.
 inline constexpr std::string_view reference_name = "reference.tum";
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "bim/config/tree.h"
 #include "scenarios/host/manifest.h"
@@ -267,6 +268,47 @@ TEST_F(Files, AManifestIsOfFilesAndNotOfBrokenLinks) {
   EXPECT_NE(text.find("a.csv,"), std::string::npos);
   EXPECT_EQ(text.find("loop"), std::string::npos);
   EXPECT_EQ(text.find("dangling"), std::string::npos);
+}
+
+TEST_F(Files, AManifestNamesFilesOfTheKindThatItDoesNotList) {
+  write_file(path("vgicp.tum"), "1");
+  write_manifest(folder_.path());
+  const ManifestCheck check{{"report.html"}, true, DirectoryKind::estimate};
+  for (const char* name : {"notes.txt", "report.html", "score.json", "plan.json", "vgicp.map.ply"})
+    write_file(path(name), "2");
+  fs::create_directory(path("old"));
+  write_file(path("old/score.json"), "2");
+  EXPECT_EQ(altered_files(folder_.path(), check),
+            (std::vector<std::string>{"plan.json", "score.json", "vgicp.map.ply"}));
+  EXPECT_TRUE(altered_files(folder_.path(), {}).empty());
+}
+
+TEST_F(Files, AreReplacedTogetherWithTheirManifest) {
+  write_file(path("score.json"), "1");
+  write_file(path("reference.tum"), "1");
+  write_manifest(folder_.path());
+  replace_files(folder_.path(),
+                {{"score.json", "2"}, {"report.html", std::string(200'000, 'p')}, {"reference.tum", std::nullopt}});
+  EXPECT_EQ(read_text_file(path("score.json")), "2");
+  EXPECT_FALSE(fs::exists(path("reference.tum")));
+  EXPECT_TRUE(altered_files(folder_.path(), {{}, true, DirectoryKind::estimate}).empty());
+  fs::remove(path("report.html"));
+  fs::create_directory(path("report.html"));  // cannot be replaced: nor are the others
+  EXPECT_THROW(replace_files(folder_.path(), {{"score.json", "3"}, {"report.html", "page"}}), InputError);
+  EXPECT_EQ(read_text_file(path("score.json")), "2");
+  EXPECT_FALSE(fs::exists(path("score.json.tmp")));
+}
+
+TEST(EstimateFile, RefusesWhatIsTooFarOrTooLate) {
+  BeliefRecord belief;
+  belief.hypotheses = {{1.0, Pose::from_xyz_yaw({1e8, 0, 0}, 0), Eigen::Matrix3d::Identity(), ""}};
+  EXPECT_EQ(read_beliefs(write_beliefs({belief}), "h.jsonl").size(), 1U);
+  BeliefRecord far = belief, wide = belief, late = belief;
+  far.hypotheses[0].X_WR.t.y() = 1e200;
+  wide.hypotheses[0].covariance(1, 1) = 1e300;
+  late.stamp = std::numeric_limits<std::int64_t>::max();
+  for (const BeliefRecord& bad : {far, wide, late})
+    EXPECT_THROW(static_cast<void>(read_beliefs(write_beliefs({bad}), "h.jsonl")), InputError);
 }
 
 TEST(EstimateFile, BeliefsRoundTrip) {

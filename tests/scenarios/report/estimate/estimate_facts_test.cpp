@@ -21,7 +21,7 @@ TEST(EstimateFacts, AreReadInWords) {
       "given: {recording: walk.bag, odometry: true, lidar_height_m: 0.7, lidar_height_from: scans, plan: house.ifc, "
       "plan_furniture: as_planned, yaw_deg: 90, command: plumbline estimate walk.bag}\n"
       "input: {points: /scan, odometry: /odom, frame: velodyne, mount: tf_static, scans: 9, rings: 16, point_times: "
-      "true, origin_ns: 1234}\nconfig: {a: 1}\n",
+      "true, origin_ns: 1234}\nplan_moved_by_m: [-500005, -5000004, 0]\nconfig: {a: 1}\n",
       "estimate.yaml"));
   EXPECT_EQ(facts.recording, "walk.bag");
   EXPECT_EQ(facts.command, "plumbline estimate walk.bag");
@@ -38,6 +38,7 @@ TEST(EstimateFacts, AreReadInWords) {
   EXPECT_EQ(value_of(facts, "furniture in the plan"), "as planned");
   EXPECT_EQ(value_of(facts, "heading at the start"), "90°");
   EXPECT_EQ(value_of(facts, "storey at the start"), "unknown");
+  EXPECT_EQ(value_of(facts, "plan moved by, m"), "-500005, -5000004, 0");
 }
 
 TEST(EstimateFacts, OfAnEarlierVersionAreFewer) {

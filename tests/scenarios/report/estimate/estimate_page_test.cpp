@@ -124,6 +124,15 @@ TEST(EstimatePage, ShowsAReferenceAndItsErrors) {
   EXPECT_NE(page.find("0.08,null"), std::string::npos);  // from where the reference ends
 }
 
+TEST(EstimatePage, SaysWhyThereIsNoPlan) {
+  const std::string why = "The plan is not drawn: this estimate has no plan.json";
+  EstimatePage made = localized_page();
+  EXPECT_EQ(render_estimate(made).find(why), std::string::npos);
+  made.input.has_plan = false;
+  EXPECT_NE(render_estimate(made).find(why), std::string::npos);
+  EXPECT_EQ(render_estimate(slam_page()).find(why), std::string::npos);  // SLAM has none
+}
+
 TEST(EstimatePage, NamesPausesAndAlteredFiles) {
   EstimatePage made = slam_page();
   made.scans_s.push_back(12.0);
