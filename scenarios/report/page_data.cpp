@@ -109,9 +109,9 @@ std::string script_data(const ReportInput& input, double end_s) {
   Tree data = Tree::map();
   data.set("states", std::move(states)).set("plots", plots(input, end_s));
   data.set("end", end_s).set("tracks", std::move(tracks));
-  std::string json = write_json(data, 0);
-  // "</" would end the script element.
-  for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) json.replace(at, 2, "<\\/");
+  // A "<" of a name could end the script element, or keep its end from being seen.
+  std::string json;
+  for (const char c : write_json(data, 0)) json += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return json;
 }
 
