@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/report/estimate/estimate_files.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "bim/errors.h"
@@ -21,16 +23,46 @@ std::string text_of_file(const std::string& path) {
   return std::filesystem::exists(path, error) ? read_text_file(path) : std::string();
 }
 
-/// Stamps of the scans by the digests that each left; without them, of the answers.
-std::vector<slam::Nanoseconds> scan_stamps(const DigestLog& digests, const MethodRecord& method,
-                                           slam::Nanoseconds origin) {
+using Stamps = std::vector<slam::Nanoseconds>;
+
+/// Of poses and beliefs, in order.
+Stamps answer_stamps(const MethodRecord& method) {
   std::set<slam::Nanoseconds> stamps;
-  for (const DigestEntry& entry : digests) stamps.insert(entry.tick + origin);
-  if (stamps.empty()) {
-    for (const slam::StampedPose& pose : method.causal) stamps.insert(pose.stamp);
-    for (const BeliefRecord& belief : method.beliefs) stamps.insert(belief.stamp);
-  }
+  for (const slam::StampedPose& pose : method.causal) stamps.insert(pose.stamp);
+  for (const BeliefRecord& belief : method.beliefs) stamps.insert(belief.stamp);
   return {stamps.begin(), stamps.end()};
+}
+
+/// Whether each answer is of a tick.
+bool are_of_ticks(const Stamps& answers, const Stamps& ticks, slam::Nanoseconds origin) {
+  return std::all_of(answers.begin(), answers.end(), [&](slam::Nanoseconds stamp) {
+    return std::binary_search(ticks.begin(), ticks.end(), stamp - origin);
+  });
+}
+
+/// Time 0 of the ticks on the clock of the answers, where an earlier version has not written it: the first answer is of
+/// one of the first scans. Nothing where the answers fit no ticks.
+std::optional<slam::Nanoseconds> origin_by_answers(const Stamps& answers, const Stamps& ticks) {
+  constexpr std::size_t most_tried = 1000;
+  if (answers.empty() || are_of_ticks(answers, ticks, 0)) return 0;
+  for (std::size_t i = 0; i < std::min(most_tried, ticks.size()); ++i)
+    if (const slam::Nanoseconds origin = answers.front() - ticks[i]; are_of_ticks(answers, ticks, origin))
+      return origin;
+  // Of a method that answers between the scans.
+  const bool around = !ticks.empty() && ticks.front() <= answers.front() && answers.back() <= ticks.back();
+  return around ? std::optional<slam::Nanoseconds>(0) : std::nullopt;
+}
+
+/// Stamps of the scans by the digests that each left; without digests that fit them, of the answers. origin: 0 where it
+/// is not known.
+Stamps scan_stamps(const DigestLog& digests, const MethodRecord& method, slam::Nanoseconds origin) {
+  std::set<slam::Nanoseconds> ticks;
+  for (const DigestEntry& entry : digests) ticks.insert(entry.tick);
+  Stamps stamps(ticks.begin(), ticks.end()), answers = answer_stamps(method);
+  const auto known = origin != 0 ? std::optional(origin) : origin_by_answers(answers, stamps);
+  if (stamps.empty() || !known) return answers;
+  for (slam::Nanoseconds& stamp : stamps) stamp += *known;
+  return stamps;
 }
 
 /// Whether a method said so that was off by more than a metre; null or never off: nothing.
