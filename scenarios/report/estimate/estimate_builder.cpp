@@ -230,9 +230,8 @@ void take_plan(EstimateFiles& files, ReportInput& input) {
 std::size_t take_paths(const EstimateFiles& files, ReportInput& input, ReportMethod& shown) {
   const MethodRecord& method = files.method;
   std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
-  const bool in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
   input.truth =
-      lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
+      lay_reference(files.reference, method, files.reference_kind, {files.scans.front(), files.scans.back()}, samples);
   for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
   input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
   const std::size_t every = samples.size() / most_samples + 1;
@@ -282,7 +281,8 @@ EstimatePage read_estimate_page(const std::string& dir) {
   input.mark_scale = std::max(1.0, (box.max - box.min).norm() / marks_across);
   page.answer = answer_sentence(method, page.spans);
   page.state = final_state(method, page.spans);
-  page.by_reference = reference_sentence(files.scores);
+  page.by_reference = reference_sentence(files);
+  page.reference = files.reference_kind;
   page.pauses = scan_pauses(files.scans);
   page.first_scan = files.scans.front();
   if (knows_scans)

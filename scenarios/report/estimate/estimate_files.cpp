@@ -8,6 +8,7 @@
 
 #include "bim/errors.h"
 #include "scenarios/host/files.h"
+#include "scenarios/metrics/reference_axes.h"
 #include "scenarios/report/estimate/estimate_page.h"
 #include "scenarios/report/results.h"
 #include "scenarios/report/svg.h"
@@ -73,6 +74,12 @@ std::string silence_sentence(const Tree* silence) {
          (said ? ", and reported LOST " + svg::number(*said, 1) + " s later." : ", and never reported LOST.");
 }
 
+std::string unsaid_by_positions(bool positions_alone) {
+  return positions_alone ? " The reference has one orientation throughout: errors of steps, of rotation and over a "
+                           "metre say nothing."
+                         : "";
+}
+
 }  // namespace
 
 EstimateFiles read_estimate_files(const std::string& dir) {
@@ -90,10 +97,15 @@ EstimateFiles read_estimate_files(const std::string& dir) {
   if (const std::string text = text_of_file(scores); !text.empty()) files.scores = read_json(text, scores);
   if (const std::string text = text_of_file(reference); !text.empty())
     files.reference = slam::read_tum(text, reference);
+  files.reference_kind.in_plan_frame = files.scores.is_map() && files.scores.find("verdict") != nullptr;
+  files.reference_kind.positions_alone = !files.reference.empty() && !files.method.causal.empty() &&
+                                         score::is_without_orientation(files.reference, files.method.causal);
   return files;
 }
 
-std::string reference_sentence(const Tree& scores) {
+std::string reference_sentence(const EstimateFiles& files) {
+  const Tree& scores = files.scores;
+  const bool positions_alone = files.reference_kind.positions_alone;
   if (!scores.is_map() || scores.find("reference") == nullptr) return "";
   std::string text;
   const auto metres = [](double m) { return m < 1.0 ? svg::number(100.0 * m, 1) + " cm" : svg::number(m, 2) + " m"; };
@@ -102,14 +114,15 @@ std::string reference_sentence(const Tree& scores) {
     text = "By the reference in the plan's frame: " + verdict;
     if (const auto error = number_of(localization, "ape_rmse_m"))
       text += ", position error " + metres(*error) + " rms from the convergence on";
-    return text + ".";
+    return text + "." + unsaid_by_positions(positions_alone);
   }
   const Tree* causal = scores.find("causal");
   const auto error = number_of(causal, "ate_aligned_rmse_m");
   if (!error) return "";
   text = "By the reference, aligned: position error " + metres(*error) + " rms";
-  if (const auto over = number_of(causal, "rpe_1m_rmse_m")) text += ", " + metres(*over) + " over each metre";
-  return text + "." + silence_sentence(scores.find("silence"));
+  if (const auto over = number_of(causal, "rpe_1m_rmse_m"); over && !positions_alone)
+    text += ", " + metres(*over) + " over each metre";
+  return text + "." + unsaid_by_positions(positions_alone) + silence_sentence(scores.find("silence"));
 }
 
 }  // namespace plumbline::scenarios

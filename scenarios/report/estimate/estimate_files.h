@@ -8,6 +8,7 @@
 #include "bim/config/tree.h"
 #include "scenarios/report/estimate/estimate_facts.h"
 #include "scenarios/report/estimate/plan_drawing.h"
+#include "scenarios/report/estimate/reference_errors.h"
 #include "scenarios/run/record.h"
 
 namespace plumbline::scenarios {
@@ -20,12 +21,14 @@ struct EstimateFiles {
   std::optional<PlanDrawing> plan;
   Tree scores;  ///< score.json; null where there is none
   std::vector<slam::StampedPose> reference;
+  ReferenceKind reference_kind;
 };
 
 /// Throws InputError at the file that is missing or damaged. What an earlier version did not write is empty.
 [[nodiscard]] EstimateFiles read_estimate_files(const std::string& dir);
 
-/// What the reference of a score says of the method, in a sentence or two; of score.json. Empty without a reference.
-[[nodiscard]] std::string reference_sentence(const Tree& scores);
+/// What the reference of a score says of the method, by score.json, in sentences, and what it cannot say. Empty without
+/// a reference.
+[[nodiscard]] std::string reference_sentence(const EstimateFiles& files);
 
 }  // namespace plumbline::scenarios

@@ -122,7 +122,8 @@ std::string reference_errors(const EstimatePage& page, double end_s) {
   std::string out = "<section class=\"card\"><h2>Error by the reference over time</h2>", small;
   for (const ErrorKind& kind : error_kinds()) {
     if (kind.id == "errors") out += draw_error(page.input, kind, end_s, false);
-    if (kind.id == "errors-z" || kind.id == "errors-heading" || kind.id == "errors-relative")
+    const bool of_turns = kind.id == "errors-heading" || kind.id == "errors-relative";
+    if (kind.id == "errors-z" || (of_turns && !page.reference.positions_alone))
       small += draw_error(page.input, kind, end_s, true);
   }
   return out +

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/io/recordings/tum.h"
 #include "tests/scenarios/report/estimate/estimate_folder.h"
 
 namespace plumbline::scenarios {
@@ -60,6 +61,37 @@ TEST(EstimateFiles, TakeTheOriginThatIsWritten) {
   write_estimate(folder.path(), method_at(moved_ticks(ticks, recorded_at)), ticks);
   write_file(folder / "estimate.yaml", "estimate: 1\nmethod: kiss_icp\nseed: 1\ninput: {origin_ns: 17}\n");
   EXPECT_EQ(read_estimate_files(folder.path()).scans, moved_ticks(ticks, 17));
+}
+
+EstimateFiles scored_files() {
+  EstimateFiles files;
+  files.scores = Tree::map();
+  files.scores.set("reference", Tree::map().set("poses", 30));
+  files.scores.set("causal", Tree::map().set("ate_aligned_rmse_m", 0.08).set("rpe_1m_rmse_m", 0.89));
+  return files;
+}
+
+TEST(EstimateFiles, TellAReferenceOfPositionsAlone) {
+  const Folder folder;
+  write_estimate(folder.path(), method_on_a_bend(40), uneven_ticks(0));
+  std::vector<slam::StampedPose> reference = poses_on_a_bend(40);
+  write_file(folder / "reference.tum", slam::write_tum(reference));
+  EXPECT_FALSE(read_estimate_files(folder.path()).reference_kind.positions_alone);
+  for (slam::StampedPose& pose : reference) pose.X_FR.q = Eigen::Quaterniond::Identity();
+  write_file(folder / "reference.tum", slam::write_tum(reference));
+  EXPECT_TRUE(read_estimate_files(folder.path()).reference_kind.positions_alone);
+}
+
+TEST(ReferenceSentence, SaysNoMoreThanPositionsTell) {
+  EXPECT_EQ(reference_sentence({}), "");
+  EstimateFiles files = scored_files();
+  EXPECT_NE(reference_sentence(files).find("8 cm rms, 89 cm over each metre."), std::string::npos);
+  files.reference_kind.positions_alone = true;
+  const std::string said = reference_sentence(files);
+  EXPECT_EQ(said.find("over each metre"), std::string::npos) << said;
+  EXPECT_NE(said.find("one orientation throughout: errors of steps, of rotation and over a metre say nothing."),
+            std::string::npos)
+      << said;
 }
 
 }  // namespace
