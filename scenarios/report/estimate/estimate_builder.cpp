@@ -266,7 +266,7 @@ EstimatePage read_estimate_page(const std::string& dir) {
   if (!knows_scans) files.scans.push_back(0);  // of a method that crashed before its first
   EstimatePage page;
   ReportInput& input = page.input;
-  input.truth_name = "reference";
+  input.truth_name = files.reference_kind.in_plan_frame ? "reference" : "reference, aligned to the estimate";
   take_plan(files, input);
   page.spans = state_spans(method, files.scans);
   input.methods.push_back(take_method(files, page));

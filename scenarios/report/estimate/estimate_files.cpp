@@ -122,7 +122,11 @@ std::string reference_sentence(const EstimateFiles& files) {
   text = "By the reference, aligned: position error " + metres(*error) + " rms";
   if (const auto over = number_of(causal, "rpe_1m_rmse_m"); over && !positions_alone)
     text += ", " + metres(*over) + " over each metre";
-  return text + "." + unsaid_by_positions(positions_alone) + silence_sentence(scores.find("silence"));
+  const std::string of_place = files.method.localization
+                                   ? " The reference is aligned to the estimate and cannot show a wrong place; one in "
+                                     "the plan's frame, given with frame=W, can."
+                                   : "";
+  return text + "." + of_place + unsaid_by_positions(positions_alone) + silence_sentence(scores.find("silence"));
 }
 
 }  // namespace plumbline::scenarios

@@ -119,7 +119,9 @@ std::string given_card(const EstimatePage& page) {
 /// Errors by the reference; those along the axes are of a frame that means nothing to a reader.
 std::string reference_errors(const EstimatePage& page, double end_s) {
   if (page.input.truth.empty()) return "";
-  std::string out = "<section class=\"card\"><h2>Error by the reference over time</h2>", small;
+  std::string out = "<section class=\"card\"><h2>Error by the " + svg::escape(page.input.truth_name) +
+                    (page.reference.in_plan_frame ? "" : ",") + " over time</h2>",
+              small;
   for (const ErrorKind& kind : error_kinds()) {
     if (kind.id == "errors") out += draw_error(page.input, kind, end_s, false);
     const bool of_turns = kind.id == "errors-heading" || kind.id == "errors-relative";

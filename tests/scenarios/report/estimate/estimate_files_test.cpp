@@ -94,5 +94,16 @@ TEST(ReferenceSentence, SaysNoMoreThanPositionsTell) {
       << said;
 }
 
+TEST(ReferenceSentence, SaysThatAnAlignedOneShowsNoWrongPlace) {
+  EstimateFiles files = scored_files();
+  const std::string why = "cannot show a wrong place";
+  EXPECT_EQ(reference_sentence(files).find(why), std::string::npos) << "SLAM has no place in a plan";
+  files.method.localization = true;
+  EXPECT_NE(reference_sentence(files).find(why), std::string::npos);
+  EXPECT_NE(reference_sentence(files).find("frame=W"), std::string::npos);
+  files.scores.set("verdict", "success");
+  EXPECT_EQ(reference_sentence(files).find(why), std::string::npos);
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios

@@ -110,7 +110,8 @@ TEST(EstimatePage, ShowsHypothesesOfALocalization) {
 /// Beside a reference over the first two seconds.
 EstimatePage scored_page() {
   EstimatePage made = slam_page();
-  made.by_reference = "By the reference, aligned: position error 8 cm rms.";
+  made.reference.in_plan_frame = true;
+  made.by_reference = "By the reference: position error 8 cm rms.";
   for (ReportSample& sample : made.input.methods.front().samples) {
     made.input.truth.push_back({sample.t_s, sample.x, 0.08, 0.0});
     sample.judged = sample.t_s < 2.0;
@@ -123,7 +124,7 @@ EstimatePage scored_page() {
 TEST(EstimatePage, ShowsAReferenceAndItsErrors) {
   const EstimatePage made = scored_page();
   const std::string page = render_estimate(made);
-  EXPECT_NE(page.find("aligned: position error 8 cm rms"), std::string::npos);
+  EXPECT_NE(page.find("By the reference: position error 8 cm rms"), std::string::npos);
   EXPECT_NE(page.find("id=\"errors\""), std::string::npos);
   EXPECT_NE(page.find(">reference</span>"), std::string::npos);
   EXPECT_EQ(page.find("id=\"errors-x\""), std::string::npos);
