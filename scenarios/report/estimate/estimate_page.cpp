@@ -107,8 +107,8 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
 std::string given_card(const EstimatePage& page) {
   const ReportMethod& method = method_of(page);
   std::string out = "<aside class=\"card\"><h2>" + svg::escape(method.name) +
-                    "</h2><p class=\"now\" id=\"now\" data-method=\"" + svg::escape(method.name) + "\" data-gap=\"" +
-                    svg::number(method.breaks.gap_s, 2) + "\"></p><h2>What it was made of</h2><dl class=\"given\">";
+                    "</h2><p class=\"now\" id=\"now\" data-method=\"" + svg::escape(method.name) +
+                    "\"></p><h2>What it was made of</h2><dl class=\"given\">";
   for (const auto& [heading, value] : page.facts.given)
     out += "<dt>" + svg::escape(heading) + "</dt><dd>" + svg::escape(value) + "</dd>";
   if (!page.scans_s.empty())
