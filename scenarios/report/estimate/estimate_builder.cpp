@@ -2,11 +2,9 @@
 #include "scenarios/report/estimate/estimate_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
-#include "bim/median.h"
 #include "scenarios/host/files.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/storey.h"
@@ -16,25 +14,12 @@
 #include "scenarios/report/estimate/estimate_files.h"
 #include "scenarios/report/estimate/map_points.h"
 #include "scenarios/report/estimate/reference_errors.h"
+#include "scenarios/report/estimate/thinned_path.h"
 #include "scenarios/report/hypothesis_history.h"
 
 namespace plumbline::scenarios {
 
 namespace {
-
-constexpr std::size_t most_samples = 5000;  // of a path as drawn
-
-/// Paths of fast or slow sensors stay whole: what several usual steps do not reach is a jump.
-PathBreaks breaks_of(const std::vector<ReportSample>& samples, double interval_s) {
-  constexpr double of_usual = 5.0;
-  std::vector<double> steps_m;
-  for (std::size_t i = 1; i < samples.size(); ++i)
-    steps_m.push_back(std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y));
-  PathBreaks breaks;
-  breaks.gap_s = std::max(breaks.gap_s, of_usual * interval_s);
-  if (!steps_m.empty()) breaks.jump_m = std::max(breaks.jump_m, of_usual * upper_median(steps_m));
-  return breaks;
-}
 
 std::vector<ReportSample> samples_of_path(const std::vector<slam::StampedPose>& poses, const EstimateFiles& files,
                                           const std::vector<bim::PlanStorey>& storeys) {
@@ -60,17 +45,8 @@ int storey_at(const std::vector<ReportSample>& samples, double t_s) {
   return next == samples.end() ? samples.back().storey : next->storey;
 }
 
-/// One in `every`, and the last one.
-std::vector<ReportSample> thinned_samples(const std::vector<ReportSample>& samples, std::size_t every) {
-  std::vector<ReportSample> kept;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    if (i % every == 0 || i + 1 == samples.size()) kept.push_back(samples[i]);
-  return kept;
-}
-
 /// The path after the last optimisation, where it is another one than that first given.
-std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys,
-                                         std::size_t every) {
+std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys) {
   constexpr double least_m = 0.05;  // a line's width
   const std::vector<slam::StampedPose>&given = files.method.causal, &corrected = files.method.estimate.trajectory;
   bool differs = corrected.size() != given.size();
@@ -79,7 +55,7 @@ std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::
   if (!differs) return {};
   std::vector<ReportSample> samples = samples_of_path(corrected, files, storeys);
   for (ReportSample& sample : samples) sample.lost = false;
-  return thinned_samples(samples, every);
+  return samples;
 }
 
 void add_found(const slam::Estimate& estimate, const std::vector<bim::PlanStorey>& storeys, ReportMethod& shown) {
@@ -230,15 +206,18 @@ void take_plan(EstimateFiles& files, ReportInput& input) {
 std::size_t take_paths(const EstimateFiles& files, ReportInput& input, ReportMethod& shown) {
   const MethodRecord& method = files.method;
   std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
-  input.truth =
+  std::vector<ReportSample> reference =
       lay_reference(files.reference, method, files.reference_kind, {files.scans.front(), files.scans.back()}, samples);
-  for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
-  input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
-  const std::size_t every = samples.size() / most_samples + 1;
-  shown.samples = thinned_samples(samples, every);
-  shown.breaks = breaks_of(shown.samples, static_cast<double>(every) * usual_interval_s(files.scans));
-  shown.corrected = corrected_path(files, input.plan.storeys, every);
-  return every;
+  for (ReportSample& sample : reference) sample.storey = storey_at(samples, sample.t_s);
+  const auto thin = [](const std::vector<ReportSample>& path, std::vector<ReportSample>& drawn, PathBreaks& breaks) {
+    const std::size_t every = drawn_one_in(path.size());
+    breaks = breaks_of(path, every);
+    drawn = thinned_path(path, every);
+    return every;
+  };
+  thin(reference, input.truth, input.truth_breaks);
+  thin(corrected_path(files, input.plan.storeys), shown.corrected, shown.corrected_breaks);
+  return thin(samples, shown.samples, shown.breaks);
 }
 
 /// The method as maps and plots show it.

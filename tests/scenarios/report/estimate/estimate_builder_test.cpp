@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "slam/io/recordings/tum.h"
 #include "tests/occurrences.h"
 #include "tests/scenarios/report/estimate/estimate_folder.h"
@@ -50,6 +52,36 @@ TEST(EstimateBuilder, DrawsErrorsOfAnEarlierVersionsRealRecording) {
   EXPECT_NEAR(page.input.methods.at(0).samples.back().t_s, 3.9, 1e-9);
   EXPECT_TRUE(page.input.methods.at(0).samples.back().judged);
   EXPECT_NE(render_estimate(page).find("id=\"errors\""), std::string::npos);
+}
+
+TEST(EstimateBuilder, ThinsEachPathByItsOwnLength) {
+  const Folder folder;
+  MethodRecord method = method_on_a_bend(6000);
+  method.estimate.trajectory = poses_on_a_bend(100);
+  for (slam::StampedPose& pose : method.estimate.trajectory) pose.X_FR.t.x() += 1.0;
+  write_estimate(folder.path(), method, {});
+  EstimatePage page = read_estimate_page(folder.path());
+  EXPECT_EQ(page.thinned, 2U);
+  EXPECT_EQ(page.input.methods.at(0).samples.size(), 3001U);
+  EXPECT_EQ(page.input.methods.at(0).corrected.size(), 100U);
+
+  std::swap(method.causal, method.estimate.trajectory);
+  write_estimate(folder.path(), method, {});
+  page = read_estimate_page(folder.path());
+  EXPECT_EQ(page.thinned, 1U);
+  EXPECT_EQ(page.input.methods.at(0).samples.size(), 100U);
+  EXPECT_EQ(page.input.methods.at(0).corrected.size(), 3001U);
+}
+
+TEST(EstimateBuilder, DrawsASparseReferenceWhole) {
+  const Folder folder;
+  const MethodRecord method = method_on_a_bend(100);
+  write_estimate(folder.path(), method, {});
+  MethodRecord sparse = method;
+  sparse.causal.clear();
+  for (std::size_t i = 0; i < method.causal.size(); i += 15) sparse.causal.push_back(method.causal[i]);
+  write_reference_at(folder.path(), sparse, Pose(), true);
+  EXPECT_EQ(occurrences(render_estimate(read_estimate_page(folder.path())), "class=\"truth\""), 1U);
 }
 
 }  // namespace
