@@ -211,6 +211,7 @@ std::vector<PlotCurve> belief_curves(const ReportMethod& method) {
   }
   if (method.other_hypotheses.empty()) return curves;
   PlotCurve rest{"all others together", "var(--soft)", {}, method.name};
+  rest.gap_s = method.breaks.gap_s;
   for (const Eigen::Vector2d& p : method.other_hypotheses) rest.points.emplace_back(p.x(), 100.0 * p.y());
   curves.push_back(std::move(rest));
   return curves;

@@ -173,7 +173,7 @@ std::string draw_method(const ReportMethod& method, int storey, bool rooms_known
   std::string out = "<g class=\"layer-" + svg::escape(method.name) + "\">";
   // What a localization finds are the plan's own walls and rooms, which are drawn already.
   if (!method.localization) out += draw_structure(method, storey, rooms_known, c);
-  out += draw_path(method.corrected, storey, "class=\"path corrected\" stroke=\"" + c + "\"", method.breaks);
+  out += draw_path(method.corrected, storey, "class=\"path corrected\" stroke=\"" + c + "\"", method.corrected_breaks);
   out += draw_path(method.samples, storey, "class=\"path\" stroke=\"" + c + "\"", method.breaks);
   if (method.lost_drawn)
     out += draw_path(method.samples, storey, "class=\"path lost\" stroke=\"" + c + "\"", method.breaks, true);
@@ -192,7 +192,7 @@ std::string draw_map(const ReportInput& input, const ReportStorey& storey, const
                                        [&](const bim::PlanRoom& room) { return room.storey == storey.index; });
   for (const ReportMethod& method : input.methods)
     if (!is_truth(method)) out += draw_method(method, storey.index, rooms_known, input.mark_scale);
-  out += draw_path(input.truth, storey.index, "class=\"truth\"") + room_names(input, storey.index) +
+  out += draw_path(input.truth, storey.index, "class=\"truth\"", input.truth_breaks) + room_names(input, storey.index) +
          draw_kidnap(input, storey.index) +
          (input.truth.empty() ? "" : robot_mark("truth", storey.index, "var(--truth)", input.mark_scale)) +
          draw_scale(box);

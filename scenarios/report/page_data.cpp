@@ -53,16 +53,20 @@ Tree state_changes(const std::vector<ReportState>& states) {
   return list;
 }
 
-/// What a curve of counts or shares is, as [[since t, value], ...]; stretches without a name belong to the one before.
+/// What a curve of counts or shares is, as [[since t, value], ...], nothing where it is drawn open; stretches without a
+/// name belong to the one before.
 Tree steps(const std::vector<PlotCurve>& curves, std::size_t first) {
   Tree list = Tree::list();
   for (std::size_t i = first; i < curves.size() && (i == first || curves[i].name.empty()); ++i) {
+    const PlotCurve& curve = curves[i];
     std::optional<double> before;
-    for (const Eigen::Vector2d& p : curves[i].points)
-      if (const double value = std::round(p.y()); std::exchange(before, value) != value)
-        list.push(Tree(Tree::List{Tree(rounded(p.x(), 100.0)), Tree(value)}));
-    if (!curves[i].points.empty())
-      list.push(Tree(Tree::List{Tree(rounded(curves[i].points.back().x() + path_gap_s, 100.0)), Tree()}));
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+      const double t_s = curve.points[k].x(), value = std::round(curve.points[k].y());
+      if (std::exchange(before, value) != value) list.push(Tree(Tree::List{Tree(rounded(t_s, 100.0)), Tree(value)}));
+      if (k + 1 < curve.points.size() && curve.points[k + 1].x() - t_s <= curve.gap_s) continue;
+      list.push(Tree(Tree::List{Tree(rounded(t_s + curve.gap_s, 100.0)), Tree()}));
+      before.reset();
+    }
   }
   return list;
 }
@@ -102,16 +106,17 @@ std::string script_data(const ReportInput& input, double end_s) {
   const bool has_truth = !input.truth.empty() || input.methods.empty();
   tracks.set("truth", track(has_truth ? input.truth : input.methods.front().samples, false));
   for (const auto& method : input.methods)
-    if (!is_truth(method)) tracks.set(method.name, track(method.samples, true));
+    if (!is_truth(method))
+      tracks.set(method.name, track(method.samples, true).set("gap", rounded(method.breaks.gap_s, 100.0)));
   Tree states = Tree::map();
   for (const auto& method : input.methods)
     if (!method.states.empty()) states.set(method.name, state_changes(method.states));
   Tree data = Tree::map();
   data.set("states", std::move(states)).set("plots", plots(input, end_s));
   data.set("end", end_s).set("tracks", std::move(tracks));
-  std::string json = write_json(data, 0);
-  // "</" would end the script element.
-  for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) json.replace(at, 2, "<\\/");
+  // A "<" of a name could end the script element, or keep its end from being seen.
+  std::string json;
+  for (const char c : write_json(data, 0)) json += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return json;
 }
 

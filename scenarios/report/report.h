@@ -118,6 +118,7 @@ struct ReportMethod {
   bool judged = true;                      ///< which of its hypotheses and walls are right is known
   bool lost_drawn = false;                 ///< its path is drawn while it is lost, too, dotted
   PathBreaks breaks = PathBreaks();
+  PathBreaks corrected_breaks = PathBreaks();
 };
 
 /// A storey with a map of its own.
@@ -149,6 +150,7 @@ struct ReportInput {
   double mark_scale = 1.0;                  ///< of the marks that stand for the robot
   bool has_plan = true;                     ///< a building is known and drawn
   std::string truth_name = "ground truth";  ///< what its line is called
+  PathBreaks truth_breaks = PathBreaks();
 };
 
 /// One self-contained HTML page: the plan of every storey the robot was on, true and estimated trajectories, found

@@ -2,11 +2,11 @@
 #include "scenarios/report/estimate/estimate_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
 #include "bim/median.h"
+#include "scenarios/host/files.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"
@@ -15,25 +15,12 @@
 #include "scenarios/report/estimate/estimate_files.h"
 #include "scenarios/report/estimate/map_points.h"
 #include "scenarios/report/estimate/reference_errors.h"
+#include "scenarios/report/estimate/thinned_path.h"
 #include "scenarios/report/hypothesis_history.h"
 
 namespace plumbline::scenarios {
 
 namespace {
-
-constexpr std::size_t most_samples = 5000;  // of a path as drawn
-
-/// Paths of fast or slow sensors stay whole: what several usual steps do not reach is a jump.
-PathBreaks breaks_of(const std::vector<ReportSample>& samples, double interval_s) {
-  constexpr double of_usual = 5.0;
-  std::vector<double> steps_m;
-  for (std::size_t i = 1; i < samples.size(); ++i)
-    steps_m.push_back(std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y));
-  PathBreaks breaks;
-  breaks.gap_s = std::max(breaks.gap_s, of_usual * interval_s);
-  if (!steps_m.empty()) breaks.jump_m = std::max(breaks.jump_m, of_usual * upper_median(steps_m));
-  return breaks;
-}
 
 std::vector<ReportSample> samples_of_path(const std::vector<slam::StampedPose>& poses, const EstimateFiles& files,
                                           const std::vector<bim::PlanStorey>& storeys) {
@@ -59,17 +46,8 @@ int storey_at(const std::vector<ReportSample>& samples, double t_s) {
   return next == samples.end() ? samples.back().storey : next->storey;
 }
 
-/// One in `every`, and the last one.
-std::vector<ReportSample> thinned_samples(const std::vector<ReportSample>& samples, std::size_t every) {
-  std::vector<ReportSample> kept;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    if (i % every == 0 || i + 1 == samples.size()) kept.push_back(samples[i]);
-  return kept;
-}
-
 /// The path after the last optimisation, where it is another one than that first given.
-std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys,
-                                         std::size_t every) {
+std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::vector<bim::PlanStorey>& storeys) {
   constexpr double least_m = 0.05;  // a line's width
   const std::vector<slam::StampedPose>&given = files.method.causal, &corrected = files.method.estimate.trajectory;
   bool differs = corrected.size() != given.size();
@@ -78,7 +56,7 @@ std::vector<ReportSample> corrected_path(const EstimateFiles& files, const std::
   if (!differs) return {};
   std::vector<ReportSample> samples = samples_of_path(corrected, files, storeys);
   for (ReportSample& sample : samples) sample.lost = false;
-  return thinned_samples(samples, every);
+  return samples;
 }
 
 void add_found(const slam::Estimate& estimate, const std::vector<bim::PlanStorey>& storeys, ReportMethod& shown) {
@@ -230,16 +208,18 @@ void take_plan(EstimateFiles& files, ReportInput& input) {
 std::size_t take_paths(const EstimateFiles& files, ReportInput& input, ReportMethod& shown) {
   const MethodRecord& method = files.method;
   std::vector<ReportSample> samples = samples_of_path(method.causal, files, input.plan.storeys);
-  const bool in_plan_frame = files.scores && files.scores->numbers.find("verdict") != nullptr;
-  input.truth =
-      lay_reference(files.reference, method, in_plan_frame, {files.scans.front(), files.scans.back()}, samples);
-  for (ReportSample& sample : input.truth) sample.storey = storey_at(samples, sample.t_s);
-  input.truth = thinned_samples(input.truth, input.truth.size() / most_samples + 1);
-  const std::size_t every = samples.size() / most_samples + 1;
-  shown.samples = thinned_samples(samples, every);
-  shown.breaks = breaks_of(shown.samples, static_cast<double>(every) * usual_interval_s(files.scans));
-  shown.corrected = corrected_path(files, input.plan.storeys, every);
-  return every;
+  std::vector<ReportSample> reference =
+      lay_reference(files.reference, method, files.reference_kind, {files.scans.front(), files.scans.back()}, samples);
+  for (ReportSample& sample : reference) sample.storey = storey_at(samples, sample.t_s);
+  const auto thin = [](const std::vector<ReportSample>& path, std::vector<ReportSample>& drawn, PathBreaks& breaks) {
+    const std::size_t every = drawn_one_in(path.size());
+    breaks = breaks_of(path, every);
+    drawn = thinned_path(path, every);
+    return every;
+  };
+  thin(reference, input.truth, input.truth_breaks);
+  thin(corrected_path(files, input.plan.storeys), shown.corrected, shown.corrected_breaks);
+  return thin(samples, shown.samples, shown.breaks);
 }
 
 /// The method as maps and plots show it.
@@ -267,7 +247,7 @@ EstimatePage read_estimate_page(const std::string& dir, const std::optional<NewS
   if (!knows_scans) files.scans.push_back(0);  // of a method that crashed before its first
   EstimatePage page;
   ReportInput& input = page.input;
-  input.truth_name = "reference";
+  input.truth_name = files.reference_kind.in_plan_frame ? "reference" : "reference, aligned to the estimate";
   take_plan(files, input);
   page.spans = state_spans(method, files.scans);
   input.methods.push_back(take_method(files, page));
@@ -282,7 +262,8 @@ EstimatePage read_estimate_page(const std::string& dir, const std::optional<NewS
   input.mark_scale = std::max(1.0, (box.max - box.min).norm() / marks_across);
   page.answer = answer_sentence(method, page.spans);
   page.state = final_state(method, page.spans);
-  if (files.scores) page.by_reference = reference_sentence(*files.scores);
+  page.by_reference = reference_sentence(files);
+  page.reference = files.reference_kind;
   page.pauses = scan_pauses(files.scans);
   page.first_scan = files.scans.front();
   if (knows_scans)

@@ -18,7 +18,7 @@ struct EstimateFacts {
   std::vector<std::string> warnings;                       ///< a sentence each
   std::vector<std::string> unchecked;                      ///< files of the recording that had been altered
   std::string config;                                      ///< all values of the method, YAML
-  slam::Nanoseconds origin = 0;                            ///< time 0 of digests.csv on the recording's clock
+  slam::Nanoseconds origin = 0;  ///< time 0 of digests.csv on the recording's clock; 0: not written
 };
 
 /// Throws InputError on what estimate.yaml cannot hold.

@@ -114,8 +114,8 @@ std::string map_card(const EstimatePage& page, const MapBox& box) {
 std::string given_card(const EstimatePage& page) {
   const ReportMethod& method = method_of(page);
   std::string out = "<aside class=\"card\"><h2>" + svg::escape(method.name) +
-                    "</h2><p class=\"now\" id=\"now\" data-method=\"" + svg::escape(method.name) + "\" data-gap=\"" +
-                    svg::number(method.breaks.gap_s, 2) + "\"></p><h2>What it was made of</h2><dl class=\"given\">";
+                    "</h2><p class=\"now\" id=\"now\" data-method=\"" + svg::escape(method.name) +
+                    "\"></p><h2>What it was made of</h2><dl class=\"given\">";
   for (const auto& [heading, value] : page.facts.given)
     out += "<dt>" + svg::escape(heading) + "</dt><dd>" + svg::escape(value) + "</dd>";
   if (!page.scans_s.empty())
@@ -126,10 +126,13 @@ std::string given_card(const EstimatePage& page) {
 /// Errors by the reference; those along the axes are of a frame that means nothing to a reader.
 std::string reference_errors(const EstimatePage& page, double end_s) {
   if (page.input.truth.empty()) return "";
-  std::string out = "<section class=\"card\"><h2>Error by the reference over time</h2>", small;
+  std::string out = "<section class=\"card\"><h2>Error by the " + svg::escape(page.input.truth_name) +
+                    (page.reference.in_plan_frame ? "" : ",") + " over time</h2>",
+              small;
   for (const ErrorKind& kind : error_kinds()) {
     if (kind.id == "errors") out += draw_error(page.input, kind, end_s, false);
-    if (kind.id == "errors-z" || kind.id == "errors-heading" || kind.id == "errors-relative")
+    const bool of_turns = kind.id == "errors-heading" || kind.id == "errors-relative";
+    if (kind.id == "errors-z" || (of_turns && !page.reference.positions_alone))
       small += draw_error(page.input, kind, end_s, true);
   }
   return out +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/report/estimate/estimate_facts.h"
+#include "scenarios/report/estimate/reference_errors.h"
 #include "scenarios/report/estimate/state_spans.h"
 #include "scenarios/report/report.h"
 
@@ -20,9 +21,10 @@ inline constexpr std::string_view reference_name = "reference.tum";
 struct EstimatePage {
   ReportInput input;  ///< its maps and plots: one method; a reference, where there is one, as the truth
   EstimateFacts facts;
-  std::string state;                 ///< in which it ended, as final_state()
-  std::string answer;                ///< as answer_sentence()
-  std::string by_reference;          ///< what the reference says of it, a sentence, or empty
+  std::string state;         ///< in which it ended, as final_state()
+  std::string answer;        ///< as answer_sentence()
+  std::string by_reference;  ///< what the reference says of it, sentences, or empty
+  ReferenceKind reference = {};
   std::vector<StateSpan> spans;      ///< of SLAM; a localization has its own in `input`
   std::vector<double> scans_s = {};  ///< times of the scans since the first
   std::vector<ScanPause> pauses;

@@ -2,9 +2,10 @@
 #include "scenarios/report/estimate/map_points.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <span>
 
 #include "scenarios/report/palette.h"
 #include "scenarios/report/svg.h"
@@ -13,31 +14,44 @@ namespace plumbline::scenarios {
 
 namespace {
 
-constexpr double least_cell_m = 0.05, layer_m = 0.25;
+constexpr double least_cell_m = 0.05;
 constexpr int most_cells = 400;  // a side
-constexpr int layers = 64;
 
-/// Which layers of height a cell has points in, a bit each; what is higher counts to the last.
-using Layers = std::uint64_t;
+enum class CellKind : std::uint8_t { empty, level, upright };
 
 struct CellGrid {
   Eigen::Vector2d min = Eigen::Vector2d::Zero();
   double cell_m = least_cell_m;
   int columns = 0, rows = 0;
-  std::vector<Layers> cells;
+  std::vector<CellKind> cells;
 
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
   }
-  [[nodiscard]] Layers at(int column, int row) const { return cells[index(column, row)]; }
+  [[nodiscard]] CellKind at(int column, int row) const { return cells[index(column, row)]; }
 };
 
-/// A floor and a ceiling fill two layers that lie apart, a wall fills several near each other: three of six.
-bool is_upright(Layers cell) {
-  constexpr Layers window = 0b111111;
-  constexpr int least = 3;
-  for (; cell != 0; cell >>= 1)
-    if (std::popcount(cell & window) >= least) return true;
+/// A point by its cell and its height.
+struct CellHeight {
+  std::uint32_t cell = 0;
+  float z = 0.0F;
+  auto operator<=>(const CellHeight&) const = default;
+};
+
+/// Whether the heights of a cell, in order, are those of a wall, which has points at three heights near each other: a
+/// floor and a ceiling, and a slab between two storeys, have two.
+bool is_upright(std::span<const CellHeight> heights) {
+  constexpr float apart_m = 0.25F, within_m = 1.5F;
+  const auto next = [&](std::size_t from) {
+    return static_cast<std::size_t>(
+        std::partition_point(heights.begin(), heights.end(),
+                             [&](const CellHeight& height) { return height.z < heights[from].z + apart_m; }) -
+        heights.begin());
+  };
+  for (std::size_t low = 0; low < heights.size(); ++low) {
+    const std::size_t middle = next(low), high = middle < heights.size() ? next(middle) : middle;
+    if (high < heights.size() && heights[high].z - heights[low].z <= within_m) return true;
+  }
   return false;
 }
 
@@ -50,6 +64,19 @@ double cell_size(const MapBox& box) {
   return size;
 }
 
+/// The points that lie in the grid, by cell, then by height.
+std::vector<CellHeight> heights_by_cell(const std::vector<Eigen::Vector3f>& points_F, const CellGrid& grid) {
+  std::vector<CellHeight> heights;
+  for (const Eigen::Vector3f& p : points_F) {
+    const double x = std::floor((p.x() - grid.min.x()) / grid.cell_m),
+                 y = std::floor((p.y() - grid.min.y()) / grid.cell_m);
+    if (!(x >= 0.0 && y >= 0.0 && x < grid.columns && y < grid.rows) || !std::isfinite(p.z())) continue;
+    heights.push_back({static_cast<std::uint32_t>(grid.index(static_cast<int>(x), static_cast<int>(y))), p.z()});
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
 CellGrid grid_of(const std::vector<Eigen::Vector3f>& points_F, const MapBox& box) {
   CellGrid grid;
   grid.min = box.min;
@@ -60,27 +87,23 @@ CellGrid grid_of(const std::vector<Eigen::Vector3f>& points_F, const MapBox& box
   };
   grid.columns = count(box.max.x() - box.min.x());
   grid.rows = count(box.max.y() - box.min.y());
-  grid.cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);
-  float lowest = points_F.front().z();
-  for (const Eigen::Vector3f& p : points_F) lowest = std::min(lowest, p.z());
-  for (const Eigen::Vector3f& p : points_F) {
-    const double x = std::floor((p.x() - grid.min.x()) / grid.cell_m),
-                 y = std::floor((p.y() - grid.min.y()) / grid.cell_m);
-    if (!(x >= 0.0 && y >= 0.0 && x < grid.columns && y < grid.rows)) continue;
-    const double layer = std::clamp(std::floor((p.z() - lowest) / layer_m), 0.0, layers - 1.0);
-    grid.cells[grid.index(static_cast<int>(x), static_cast<int>(y))] |= Layers{1} << static_cast<int>(layer);
+  grid.cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), CellKind::empty);
+  const std::vector<CellHeight> heights = heights_by_cell(points_F, grid);
+  for (auto first = heights.begin(); first != heights.end();) {
+    const auto end = std::find_if(first, heights.end(), [&](const CellHeight& h) { return h.cell != first->cell; });
+    grid.cells[first->cell] = is_upright({first, end}) ? CellKind::upright : CellKind::level;
+    first = end;
   }
   return grid;
 }
 
 /// Cells of one kind as level strokes, each as long as there are such cells beside each other.
-std::string strokes(const CellGrid& grid, bool upright) {
+std::string strokes(const CellGrid& grid, CellKind kind) {
   std::string d;
   for (int row = 0; row < grid.rows; ++row) {
     int start = -1;
     for (int column = 0; column <= grid.columns; ++column) {
-      const bool is_kind =
-          column < grid.columns && grid.at(column, row) != 0 && is_upright(grid.at(column, row)) == upright;
+      const bool is_kind = column < grid.columns && grid.at(column, row) == kind;
       if (is_kind && start < 0) start = column;
       if (is_kind || start < 0) continue;
       d += "M" + std::to_string(start) + " " + std::to_string(-row) + "h" + std::to_string(column - start);
@@ -90,8 +113,8 @@ std::string strokes(const CellGrid& grid, bool upright) {
   return d;
 }
 
-std::string path_of(const CellGrid& grid, bool upright, const std::string& ink) {
-  const std::string d = strokes(grid, upright);
+std::string path_of(const CellGrid& grid, CellKind kind, const std::string& ink) {
+  const std::string d = strokes(grid, kind);
   return d.empty() ? "" : "<path fill=\"none\" stroke-width=\"1\" " + ink + " d=\"" + d + "\"/>";
 }
 
@@ -120,9 +143,9 @@ std::string draw_map_points(const std::vector<Eigen::Vector3f>& points_F, const 
   const double half = 0.5 * grid.cell_m;
   return "<g transform=\"translate(" + svg::number(grid.min.x()) + " " + svg::number(-(grid.min.y() + half)) +
          ") scale(" + svg::number(grid.cell_m) + ")\">" +
-         (over_plan ? path_of(grid, true, "stroke=\"" + method_ink(0) + "\" stroke-opacity=\".35\"")
-                    : path_of(grid, false, "stroke=\"var(--thing)\" stroke-opacity=\".5\"") +
-                          path_of(grid, true, "stroke=\"var(--wall)\" stroke-opacity=\".6\"")) +
+         (over_plan ? path_of(grid, CellKind::upright, "stroke=\"" + method_ink(0) + "\" stroke-opacity=\".35\"")
+                    : path_of(grid, CellKind::level, "stroke=\"var(--thing)\" stroke-opacity=\".5\"") +
+                          path_of(grid, CellKind::upright, "stroke=\"var(--wall)\" stroke-opacity=\".6\"")) +
          "</g>";
 }
 

@@ -36,14 +36,15 @@ std::vector<double> distances_to(const std::vector<score::PosePair>& pairs, std:
 }  // namespace
 
 std::vector<ReportSample> lay_reference(const std::vector<slam::StampedPose>& reference, const MethodRecord& method,
-                                        bool in_plan_frame, const ScanRange& scans,
+                                        const ReferenceKind& kind, const ScanRange& scans,
                                         std::vector<ReportSample>& samples) {
   const score::ReferenceRules rules;
   if (reference.empty() || method.causal.empty() || samples.size() != method.causal.size()) return {};
   const std::vector<score::PosePair> matched = score::match_reference(reference, method.causal);
   if (matched.size() < rules.least_matched) return {};
-  const Pose X_FW = in_plan_frame ? Pose() : score::umeyama(matched).inverse();
-  const Pose shown_X_FW = in_plan_frame ? Pose() : score::place_map(matched).inverse();
+  const Pose X_FW = kind.in_plan_frame ? Pose() : score::umeyama(matched).inverse();
+  const bool by_positions = kind.in_plan_frame || kind.positions_alone;
+  const Pose shown_X_FW = by_positions ? X_FW : score::place_map(matched).inverse();
   const std::vector<score::PosePair> pairs = pairs_at_estimate(reference, method.causal);
   const std::vector<std::optional<double>> relative =
       score::errors_over(pairs, distances_to(pairs, samples.size()), rules.rpe_distance_m);
@@ -52,6 +53,7 @@ std::vector<ReportSample> lay_reference(const std::vector<slam::StampedPose>& re
     sample.judged = true;
     sample.error_W = pairs[i].X_FR.t - X_FW * pairs[i].X_WR.t;
     sample.error_m = sample.error_W.norm();
+    if (kind.positions_alone) continue;
     sample.yaw_error = ((shown_X_FW * pairs[i].X_WR).inverse() * pairs[i].X_FR).yaw();
     sample.relative_m = relative[i];
   }

@@ -10,7 +10,7 @@
     for (var i = 0; i < track.t.length && track.t[i] <= t + half; i++) k = i;
     states.forEach(function (change) { if (change[0] <= t + half) state = change[1]; });
     var text = "at " + t.toFixed(1) + " s: ";
-    if (k < 0 || (now.dataset.gap && t - track.t[k] > +now.dataset.gap)) text += "no single pose";
+    if (k < 0 || t - track.t[k] > track.gap) text += "no single pose";
     else {
       text += "x " + track.x[k].toFixed(2) + " m, y " + track.y[k].toFixed(2) + " m, heading " +
         (track.yaw[k] * 180 / Math.PI).toFixed(0) + "°";

@@ -18,6 +18,8 @@
     return { k: lo, x: track.x[lo], y: track.y[lo], yaw: track.yaw[lo], s: track.s[lo], e: track.e ? track.e[lo] : 0,
              lost: track.lost ? track.lost[lo] === 1 : false };
   }
+  // Whether the sample before t is so old that curves are drawn open.
+  function isOver(track, p, t) { return t - track.t[p.k] >= track.gap; }
   function stateAt(name, t) {
     var list = data.states[name] || [], found = "";
     list.forEach(function (change) { if (change[0] <= t + half) found = change[1]; });
@@ -27,7 +29,7 @@
     var p = at(data.tracks[name], t), state = stateAt(name, t);
     if (!p) return "no single answer yet" + (state ? ", " + state : "");
     if (p.lost) return "says that it is LOST";
-    if (t - data.tracks[name].t[p.k] >= 1) return "no pose since " + data.tracks[name].t[p.k].toFixed(1) + " s" + (state ? ", " + state : "");
+    if (isOver(data.tracks[name], p, t)) return "no pose since " + data.tracks[name].t[p.k].toFixed(1) + " s" + (state ? ", " + state : "");
     return (p.e < 1 ? (p.e * 100).toFixed(1) + " cm" : p.e.toFixed(2) + " m") + " off" + (state ? ", " + state : "");
   }
   // What a curve of a plot is at t, as text; "" where it is nothing.
@@ -36,7 +38,7 @@
     if (series.column) {
       var p = at(data.tracks[series.name], t);
       if (p && p.lost) return "LOST";
-      if (p && t - data.tracks[series.name].t[p.k] < 1) v = data.tracks[series.name][series.column][p.k];
+      if (p && !isOver(data.tracks[series.name], p, t)) v = data.tracks[series.name][series.column][p.k];
     } else {
       series.steps.forEach(function (step) { if (step[0] <= t + half) v = step[1]; });
     }

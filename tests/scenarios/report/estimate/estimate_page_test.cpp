@@ -104,19 +104,27 @@ TEST(EstimatePage, ShowsHypothesesOfALocalization) {
   EXPECT_NE(page.find("hypothesis 1: a&lt;b"), std::string::npos);
   EXPECT_NE(page.find("at convergence, 2 s: 1 wall<"), std::string::npos);
   EXPECT_NE(page.find(">converged</span>"), std::string::npos);
-  EXPECT_EQ(page.find("class=\"thing"), page.rfind("class=\"thing"));  // the key
+  EXPECT_EQ(occurrences(page, "class=\"thing"), 1U);  // the key
 }
 
-TEST(EstimatePage, ShowsAReferenceAndItsErrors) {
+/// Beside a reference over the first two seconds.
+EstimatePage scored_page() {
   EstimatePage made = slam_page();
-  made.by_reference = "By the reference, aligned: position error 8 cm rms.";
+  made.reference.in_plan_frame = true;
+  made.by_reference = "By the reference: position error 8 cm rms.";
   for (ReportSample& sample : made.input.methods.front().samples) {
     made.input.truth.push_back({sample.t_s, sample.x, 0.08, 0.0});
     sample.judged = sample.t_s < 2.0;
     sample.error_m = 0.08;
+    sample.relative_m = 0.08;
   }
+  return made;
+}
+
+TEST(EstimatePage, ShowsAReferenceAndItsErrors) {
+  const EstimatePage made = scored_page();
   const std::string page = render_estimate(made);
-  EXPECT_NE(page.find("aligned: position error 8 cm rms"), std::string::npos);
+  EXPECT_NE(page.find("By the reference: position error 8 cm rms"), std::string::npos);
   EXPECT_NE(page.find("id=\"errors\""), std::string::npos);
   EXPECT_NE(page.find(">reference</span>"), std::string::npos);
   EXPECT_EQ(page.find("id=\"errors-x\""), std::string::npos);
@@ -131,6 +139,17 @@ TEST(EstimatePage, SaysWhyThereIsNoPlan) {
   made.input.has_plan = false;
   EXPECT_NE(render_estimate(made).find(why), std::string::npos);
   EXPECT_EQ(render_estimate(slam_page()).find(why), std::string::npos);  // SLAM has none
+}
+
+TEST(EstimatePage, PlotsNoTurnOfAReferenceOfPositionsAlone) {
+  EstimatePage made = scored_page();
+  EXPECT_NE(render_estimate(made).find("id=\"errors-heading\""), std::string::npos);
+  EXPECT_NE(render_estimate(made).find("id=\"errors-relative\""), std::string::npos);
+  made.reference.positions_alone = true;
+  const std::string page = render_estimate(made);
+  EXPECT_NE(page.find("id=\"errors-z\""), std::string::npos);
+  EXPECT_EQ(page.find("id=\"errors-heading\""), std::string::npos);
+  EXPECT_EQ(page.find("id=\"errors-relative\""), std::string::npos);
 }
 
 TEST(EstimatePage, NamesPausesAndAlteredFiles) {

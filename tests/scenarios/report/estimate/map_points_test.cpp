@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/occurrences.h"
 
 namespace plumbline::scenarios {
@@ -41,6 +43,29 @@ TEST(MapPoints, OverAPlanAreWhatIsUpright) {
   EXPECT_EQ(occurrences(drawn, "<path"), 1U);
   EXPECT_NE(drawn.find("var(--m0)"), std::string::npos);
   EXPECT_EQ(draw_map_points({}, square_box(10.0), true), "");
+}
+
+TEST(MapPoints, KeepTheirWallsBesideAGhostFarBelow) {
+  std::vector<Eigen::Vector3f> points = {{5.02F, 5.02F, -20.0F}, {1.0F, 1.02F, -20.0F}};
+  for (const float z : {0.1F, 0.6F, 1.1F}) points.emplace_back(5.02F, 5.02F, z);
+  EXPECT_EQ(strokes_with(draw_map_points(points, square_box(10.0), false), "var(--wall)"), "M100 -100h1");
+  // None of these is a height.
+  points.emplace_back(5.02F, 5.02F, std::numeric_limits<float>::quiet_NaN());
+  points.emplace_back(5.02F, 5.02F, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(strokes_with(draw_map_points(points, square_box(10.0), false), "var(--wall)"), "M100 -100h1");
+}
+
+TEST(MapPoints, TellWallsFromFloorsOnEachOfFiveStoreys) {
+  std::vector<Eigen::Vector3f> points;
+  for (int storey = 0; storey < 5; ++storey) {
+    const float floor = 4.0F * static_cast<float>(storey), x = 1.02F + static_cast<float>(storey);
+    // Floor and ceiling, each with its noise, above those of the storey below.
+    for (const float z : {-0.03F, 0.03F, 3.67F, 3.73F}) points.emplace_back(8.02F, 8.02F, floor + z);
+    for (const float z : {0.1F, 0.6F, 1.1F}) points.emplace_back(x, 5.02F, floor + z);
+  }
+  const std::string drawn = draw_map_points(points, square_box(10.0), false);
+  EXPECT_EQ(strokes_with(drawn, "var(--wall)"), "M20 -100h1M40 -100h1M60 -100h1M80 -100h1M100 -100h1");
+  EXPECT_EQ(strokes_with(drawn, "var(--thing)"), "M160 -160h1");
 }
 
 TEST(MapPoints, GrowTheirCellsWithTheMap) {

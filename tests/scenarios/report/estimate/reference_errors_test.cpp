@@ -36,7 +36,7 @@ TEST(ReferenceErrors, AreAfterTheAlignmentOfAMap) {
   std::vector<ReportSample> samples(60);
   for (ReportSample& sample : samples) sample.judged = false;
   const std::vector<ReportSample> laid =
-      lay_reference(moved_path(elsewhere, bent_path(60)), method, false, all_scans, samples);
+      lay_reference(moved_path(elsewhere, bent_path(60)), method, {}, all_scans, samples);
   ASSERT_EQ(laid.size(), 60U);
   for (std::size_t i = 0; i < 60; ++i) {
     EXPECT_TRUE(samples[i].judged);
@@ -55,7 +55,7 @@ TEST(ReferenceErrors, InThePlansFrameAreNotAligned) {
   std::vector<ReportSample> samples(30);
   Pose aside;
   aside.t = {0.0, 0.4, 0.0};
-  (void)lay_reference(moved_path(aside, bent_path(30)), method, true, all_scans, samples);
+  (void)lay_reference(moved_path(aside, bent_path(30)), method, {true, false}, all_scans, samples);
   EXPECT_NEAR(samples[12].error_m, 0.4, 1e-9);
   EXPECT_NEAR(samples[12].error_W.y(), -0.4, 1e-9);
 }
@@ -67,9 +67,24 @@ TEST(ReferenceErrors, AreWhereTheReferenceHasPoses) {
   for (ReportSample& sample : samples) sample.judged = false;
   std::vector<slam::StampedPose> half = bent_path(60);
   half.resize(30);
-  EXPECT_EQ(lay_reference(half, method, false, {10 * scan_ns, 100 * scan_ns}, samples).size(), 20U);
+  EXPECT_EQ(lay_reference(half, method, {}, {10 * scan_ns, 100 * scan_ns}, samples).size(), 20U);
   EXPECT_TRUE(samples[29].judged);
   EXPECT_FALSE(samples[31].judged);
+}
+
+TEST(ReferenceErrors, OfPositionsAloneAreNotOverAMetre) {
+  MethodRecord method;
+  method.causal = bent_path(60);
+  std::vector<slam::StampedPose> positions = bent_path(60);
+  for (slam::StampedPose& pose : positions) pose.X_FR.q = Eigen::Quaterniond::Identity();
+  std::vector<ReportSample> samples(60);
+  const std::vector<ReportSample> laid = lay_reference(moved_path(Pose::from_xyz_yaw({9.0, 0.0, 0.0}, 0.0), positions),
+                                                       method, {false, true}, all_scans, samples);
+  ASSERT_EQ(laid.size(), 60U);
+  EXPECT_NEAR(laid[30].y, method.causal[30].X_FR.t.y(), 1e-6);
+  EXPECT_NEAR(samples[40].error_m, 0.0, 1e-6);
+  EXPECT_TRUE(samples[40].judged);
+  EXPECT_FALSE(samples[40].relative_m.has_value());
 }
 
 TEST(ReferenceErrors, AreNoneWithoutAReferenceOfThatTime) {
@@ -77,10 +92,10 @@ TEST(ReferenceErrors, AreNoneWithoutAReferenceOfThatTime) {
   method.causal = bent_path(20);
   std::vector<ReportSample> samples(20);
   samples[3].judged = false;
-  EXPECT_TRUE(lay_reference({}, method, false, all_scans, samples).empty());
+  EXPECT_TRUE(lay_reference({}, method, {}, all_scans, samples).empty());
   std::vector<slam::StampedPose> later = bent_path(20);
   for (slam::StampedPose& pose : later) pose.stamp += 3600'000'000'000;
-  EXPECT_TRUE(lay_reference(later, method, false, all_scans, samples).empty());
+  EXPECT_TRUE(lay_reference(later, method, {}, all_scans, samples).empty());
   EXPECT_FALSE(samples[3].judged);
 }
 
