@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bim/config/printable.h"
 #include "bim/config/tree.h"
 #include "scenarios/app/commands.h"
+#include "scenarios/app/estimate_score.h"
 #include "scenarios/host/files.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
@@ -28,9 +30,11 @@ DigestLog load(const std::string& dir) {
 
 /// Digests are of what was computed: files that were altered since may differ although they are equal.
 void note_altered(const std::string& directory) {
+  const std::vector<std::string> made_again =
+      is_estimate_directory(directory) ? derived_files() : std::vector<std::string>{"score.json"};
   std::string names;
   if (std::filesystem::exists(directory + "/" + std::string(manifest_name)))
-    for (const std::string& name : altered_files(directory, {derived_files(), false}))
+    for (const std::string& name : altered_files(directory, {made_again, false}))
       names += (names.empty() ? "" : ", ") + name;
   if (names.empty()) return;
   print_note("plumbline: warning: " + directory + ": altered since they were written: " + names +

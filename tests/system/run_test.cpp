@@ -160,6 +160,11 @@ TEST_F(ShortRun, AlteredFilesAreNamed) {
             std::string::npos)
       << diff.err;
   EXPECT_EQ(diff.err.find(dir() + ": "), std::string::npos) << diff.err;
+  const std::string results = read_file(copy + "/results.json");
+  write_file(copy + "/results.json", results + "\n");
+  EXPECT_NE(plumbline({"diff", dir(), copy}).err.find("altered since they were written: results.json, vgicp.tum;"),
+            std::string::npos);
+  write_file(copy + "/results.json", results);
   const std::string truth = read_file(copy + "/truth.tum");
   write_file(copy + "/truth.tum", truth.substr(0, truth.rfind('\n', truth.size() - 2) + 1));
   refused("score", "written: truth.tum, vgicp.tum;");
