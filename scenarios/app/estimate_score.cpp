@@ -256,8 +256,7 @@ void compare(const MethodRecord& method, const ReferenceSource& source, ScoredEs
   Poses& reference = scored.reference;
   if (!source.file.empty()) reference = read_reference(source, method.causal);
   const bool positions_alone = !reference.empty() && score::is_without_orientation(reference, method.causal);
-  scored.axes = positions_alone ? "the reference has one orientation throughout: errors of steps, of rotation and over "
-                                  "a metre say nothing"
+  scored.axes = positions_alone ? std::string(score::positions_alone_words)
                                 : turn_to_robot(method.causal, reference, scored.numbers);
   scored.causal = score_one(method.causal, reference, source.file);
   scored.last = score_one(method.estimate.trajectory, reference, source.file);
@@ -296,7 +295,7 @@ void set_numbers(const MethodRecord& method, const std::vector<std::string>& unc
   if (scored.last.path.poses > 0) tree.set("final", to_json(scored.last));
 }
 
-/// All that score leaves, or nothing of it. Returns whether it has a page.
+/// All that score leaves, nothing of it before all is on the disk. Returns whether it has a page.
 bool write_score(const std::string& dir, const ScoredEstimate& scored, const std::vector<std::string>& altered) {
   const NewScore fresh{write_json(scored.numbers) + "\n",
                        scored.reference.empty() ? std::string() : slam::write_tum(scored.reference)};

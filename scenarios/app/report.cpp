@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bim/config/printable.h"
@@ -58,7 +59,9 @@ int report_estimate(const ReportArguments& options) {
   const std::string page(estimate_page_name);
   const std::vector<std::string> altered = altered_files(options.dir, {{page}, false, DirectoryKind::estimate});
   refuse_altered(options.dir, altered, options.unchecked);
-  replace_files(options.dir, {{page, estimate_page(options.dir, altered)}});
+  std::string text = estimate_page(options.dir, altered);
+  catch_interrupts();  // which nothing looks at: page and manifest appear together
+  replace_files(options.dir, {{page, std::move(text)}});
   print("report: " + printable(options.dir) + "/" + page + "\n");
   return 0;
 }

@@ -60,13 +60,15 @@ void write_beside(const std::string& path, std::string_view bytes) {
 
 void write_file(const std::string& path, std::string_view bytes) { write_files({{path, bytes}}); }
 
-void write_files(const std::vector<FileBytes>& files) {
+void require_replaceable(const std::string& path) {
   std::error_code unknown;
-  for (const FileBytes& file : files) {
-    const fs::file_status there = fs::symlink_status(file.path, unknown);
-    if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
-      throw InputError({file.path, 0, 0}, "is no file that could be replaced; give another name");
-  }
+  const fs::file_status there = fs::symlink_status(path, unknown);
+  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+    throw InputError({path, 0, 0}, "is no file that could be replaced; give another name");
+}
+
+void write_files(const std::vector<FileBytes>& files) {
+  for (const FileBytes& file : files) require_replaceable(file.path);
   try {
     for (const FileBytes& file : files) write_beside(file.path, file.bytes);
     for (const FileBytes& file : files)

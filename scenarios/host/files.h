@@ -18,6 +18,9 @@ inline constexpr std::string_view recording_folder = "recording";
 /// Throws EnvironmentError.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Throws InputError where something other than a file or a link stands.
+void require_replaceable(const std::string& path);
+
 struct FileBytes {
   std::string path;
   std::string_view bytes;

@@ -20,6 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of a method's answer, after its name.
+constexpr std::string_view estimate_ending = ".estimate.json";
+
 using Entries = std::map<std::string, std::string>;  ///< digest by name
 
 std::string path_of(const std::string& directory) { return directory + "/" + std::string(manifest_name); }
@@ -108,6 +111,18 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// A file that a directory of the kind is read with: one of the fixed names, or of one of its own methods. Others may
+/// lie beside them, as a ground truth does.
+bool is_read(DirectoryKind kind, const Entries& entries, const std::string& name) {
+  const auto rows = files_of(kind);
+  if (std::any_of(rows.begin(), rows.end(), [&](const FileRow& row) { return row.name == name; })) return true;
+  return is_file_of(kind, name) && std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
+           const std::string& estimate = entry.first;
+           return estimate.ends_with(estimate_ending) &&
+                  name.starts_with(estimate.substr(0, estimate.size() - estimate_ending.size() + 1));
+         });
+}
+
 }  // namespace
 
 void write_manifest(const std::string& directory) {
@@ -128,7 +143,7 @@ std::vector<std::string> altered_files(const std::string& directory, const Manif
     if (!fs::is_regular_file(path) || digest_of_file(path) != digest) altered.push_back(name);
   }
   for (const std::string& name : files_in(directory)) {
-    const bool counts = name.ends_with(".estimate.json") || (check.kind && is_file_of(*check.kind, name));
+    const bool counts = name.ends_with(estimate_ending) || (check.kind && is_read(*check.kind, entries, name));
     if (counts && !entries.contains(name) && !is_among(check.written_anew, name)) altered.push_back(name);
   }
   std::sort(altered.begin(), altered.end());
@@ -145,7 +160,13 @@ void refuse_altered(const std::string& directory, const std::vector<std::string>
   const auto missing = [&](const std::string& name) { return !fs::is_regular_file(directory + "/" + name); };
   const bool all = std::all_of(altered.begin(), altered.end(), missing);
   const bool any = std::any_of(altered.begin(), altered.end(), missing);
-  const std::string what = all ? "missing: " : any ? "altered or missing: " : "altered since they were written: ";
+  const bool added = !none && std::all_of(altered.begin(), altered.end(), [&](const std::string& name) {
+    return !missing(name) && name != manifest_name && !read_manifest(directory).entries.contains(name);
+  });
+  const std::string what = added ? "not listed in manifest.csv: "
+                           : all ? "missing: "
+                           : any ? "altered or missing: "
+                                 : "altered since they were written: ";
   const bool broken = !none && is_among(altered, std::string(manifest_name));
   const std::string why =
       broken ? " (a line of manifest.csv was changed or removed, or an earlier version wrote it)" : "";
@@ -156,8 +177,8 @@ void refuse_altered(const std::string& directory, const std::vector<std::string>
                      "has no manifest.csv, which says whether its files are as they were written; "
                      "--unchecked goes on without");
   else
-    throw InputError({directory, 0, 0},
-                     what + names + why + "; run it again, or add --unchecked to take them as they are");
+    throw InputError({directory, 0, 0}, what + names + why + (added ? "; move it elsewhere" : "; run it again") +
+                                            ", or add --unchecked to take them as they are");
 }
 
 void renew_manifest(const std::string& directory, const std::vector<std::string>& names) {
@@ -184,9 +205,15 @@ void replace_files(const std::string& directory, const std::vector<NewFile>& fil
   }
   const std::string list = manifest ? text_of(*manifest) : std::string();
   if (manifest) written.push_back({path_of(directory), list});
-  write_files(written);
   for (const NewFile& file : files)
-    if (!file.bytes) fs::remove(directory + "/" + file.name);
+    if (!file.bytes) require_replaceable(directory + "/" + file.name);
+  write_files(written);
+  for (const NewFile& file : files) {
+    if (file.bytes) continue;
+    std::error_code error;
+    fs::remove(directory + "/" + file.name, error);
+    if (error) throw EnvironmentError(directory + "/" + file.name + ": cannot be removed: " + error.message());
+  }
 }
 
 }  // namespace plumbline::scenarios

@@ -19,9 +19,10 @@ void write_manifest(const std::string& directory);
 
 /// What a check leaves out.
 struct ManifestCheck {
-  std::vector<std::string> written_anew;   ///< files that the command writes itself
-  bool recording = true;                   ///< whether the recording is compared, too, which may be large
-  std::optional<DirectoryKind> kind = {};  ///< files that such a directory may hold count where the manifest has none
+  std::vector<std::string> written_anew;  ///< files that the command writes itself
+  bool recording = true;                  ///< whether the recording is compared, too, which may be large
+  std::optional<DirectoryKind> kind =
+      {};  ///< files that such a directory is read with count where the manifest has none
 };
 /// Files that are not as they were written, are missing, or are of a method or of that kind and were not there, in the
 /// order of their names; the manifest itself where there is none or a line of it was changed or removed. Throws
@@ -41,7 +42,7 @@ struct NewFile {
   std::optional<std::string> bytes;  ///< absent: the file goes
 };
 /// Puts files into place together with the manifest that has them, where there is one: none is there before all are on
-/// the disk. Throws EnvironmentError, and InputError where one is no file.
+/// the disk, and those that go do so last. Throws EnvironmentError, and InputError where one is no file.
 void replace_files(const std::string& directory, const std::vector<NewFile>& files);
 
 }  // namespace plumbline::scenarios

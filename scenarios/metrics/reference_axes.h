@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/metrics/reference_score.h"
@@ -29,6 +30,9 @@ struct TurnedReference {
                                                              const std::vector<slam::StampedPose>& poses_F,
                                                              const AxesRules& rules = {});
 
+/// What is said of errors by such a reference.
+inline constexpr std::string_view positions_alone_words =
+    "the reference has one orientation throughout: errors of steps, of rotation and over a metre say nothing";
 /// Whether all poses of a reference have one orientation while the estimate turns: it holds positions alone.
 [[nodiscard]] bool is_without_orientation(const std::vector<slam::StampedPose>& reference_W,
                                           const std::vector<slam::StampedPose>& poses_F);

@@ -222,7 +222,8 @@ TEST_F(EstimatePages, BelieveNoFileThatWasAdded) {
     write_file(dir + "/" + name, text);
     const Outcome refused = plumbline({"report", dir});
     EXPECT_EQ(refused.code, 2) << name;
-    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("not listed in manifest.csv: " + name + "; move it elsewhere"), std::string::npos)
+        << refused.err;
     const Outcome taken = plumbline({"report", dir, "--unchecked"});
     EXPECT_EQ(taken.code, 0) << taken.err;
     const std::string shown = read_file(dir + "/report.html");
@@ -230,6 +231,28 @@ TEST_F(EstimatePages, BelieveNoFileThatWasAdded) {
     EXPECT_EQ(shown.find("javascript:"), std::string::npos);
     EXPECT_EQ(plumbline({"report", dir}).code, 2) << "what was added stays so";
   }
+}
+
+TEST_F(EstimatePages, LeaveTheUsersOwnFilesAlone) {
+  const std::string dir = copy("slam");
+  fs::copy_file(walk() + "/truth.tum", dir + "/gt.tum");
+  write_file(dir + "/cleaned.map.ply", "of another program");
+  EXPECT_EQ(plumbline({"report", dir}).code, 0);
+  const Outcome scored = plumbline({"score", dir, "--reference", dir + "/gt.tum"});
+  EXPECT_EQ(scored.code, 0) << scored.err;
+  EXPECT_EQ(read_file(dir + "/score.json").find("unchecked"), std::string::npos);
+  EXPECT_TRUE(fs::exists(dir + "/gt.tum"));
+}
+
+TEST_F(EstimatePages, OfAScoreStayWhereAFileOfItCannotBeReplaced) {
+  const std::string dir = copy("slam");
+  const std::string page = read_file(dir + "/report.html");
+  fs::create_directory(dir + "/reference.tum");
+  const Outcome refused = plumbline({"score", dir});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("reference.tum: is no file that could be replaced"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(dir + "/report.html"), page);
+  EXPECT_FALSE(fs::exists(dir + "/score.json"));
 }
 
 TEST_F(EstimatePages, OfAScoreThatIsDamagedAreRefused) {

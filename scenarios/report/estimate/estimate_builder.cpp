@@ -5,8 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "bim/median.h"
-#include "scenarios/host/files.h"
 #include "scenarios/metrics/reference_score.h"
 #include "scenarios/metrics/storey.h"
 #include "scenarios/report/belief.h"

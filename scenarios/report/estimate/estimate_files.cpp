@@ -49,9 +49,11 @@ bool are_of_ticks(const Stamps& answers, const Stamps& ticks, slam::Nanoseconds 
 std::optional<slam::Nanoseconds> origin_by_answers(const Stamps& answers, const Stamps& ticks) {
   constexpr std::size_t most_tried = 1000;
   if (answers.empty() || are_of_ticks(answers, ticks, 0)) return 0;
-  for (std::size_t i = 0; i < std::min(most_tried, ticks.size()); ++i)
-    if (const slam::Nanoseconds origin = answers.front() - ticks[i]; are_of_ticks(answers, ticks, origin))
-      return origin;
+  for (std::size_t i = 0; i < std::min(most_tried, ticks.size()); ++i) {
+    const slam::Nanoseconds origin = answers.front() - ticks[i];
+    const bool fits = is_stamp(origin) && is_stamp(ticks.front() + origin) && is_stamp(ticks.back() + origin);
+    if (fits && are_of_ticks(answers, ticks, origin)) return origin;
+  }
   // Of a method that answers between the scans.
   const bool around = !ticks.empty() && ticks.front() <= answers.front() && answers.back() <= ticks.back();
   return around ? std::optional<slam::Nanoseconds>(0) : std::nullopt;
@@ -85,9 +87,10 @@ std::string silence_sentence(const Tree* silence) {
 }
 
 std::string unsaid_by_positions(bool positions_alone) {
-  return positions_alone ? " The reference has one orientation throughout: errors of steps, of rotation and over a "
-                           "metre say nothing."
-                         : "";
+  if (!positions_alone) return "";
+  std::string words(score::positions_alone_words);
+  words.front() = 'T';
+  return " " + words + ".";
 }
 
 }  // namespace

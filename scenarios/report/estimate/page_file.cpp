@@ -13,8 +13,8 @@ std::string estimate_page(const std::string& dir, const std::vector<std::string>
   return render_estimate(page);
 }
 
-void write_estimate_page(const std::string& dir, const std::vector<std::string>& altered) {
-  write_file(dir + "/" + std::string(estimate_page_name), estimate_page(dir, altered));
+void write_estimate_page(const std::string& dir) {
+  write_file(dir + "/" + std::string(estimate_page_name), estimate_page(dir));
 }
 
 }  // namespace plumbline::scenarios

@@ -16,6 +16,6 @@ namespace plumbline::scenarios {
                                         const std::optional<NewScore>& fresh = {});
 
 /// Writes it into the directory.
-void write_estimate_page(const std::string& dir, const std::vector<std::string>& altered = {});
+void write_estimate_page(const std::string& dir);
 
 }  // namespace plumbline::scenarios

@@ -271,10 +271,11 @@ TEST_F(Files, AManifestIsOfFilesAndNotOfBrokenLinks) {
 }
 
 TEST_F(Files, AManifestNamesFilesOfTheKindThatItDoesNotList) {
-  write_file(path("vgicp.tum"), "1");
+  write_file(path("vgicp.estimate.json"), "1");
   write_manifest(folder_.path());
   const ManifestCheck check{{"report.html"}, true, DirectoryKind::estimate};
-  for (const char* name : {"notes.txt", "report.html", "score.json", "plan.json", "vgicp.map.ply"})
+  for (const char* name :
+       {"notes.txt", "gt.tum", "vgicp2.tum", "report.html", "score.json", "plan.json", "vgicp.map.ply"})
     write_file(path(name), "2");
   fs::create_directory(path("old"));
   write_file(path("old/score.json"), "2");

@@ -63,6 +63,14 @@ TEST(EstimateFiles, TakeTheOriginThatIsWritten) {
   EXPECT_EQ(read_estimate_files(folder.path()).scans, moved_ticks(ticks, 17));
 }
 
+// Each sum of a tick and the answers' clock must fit.
+TEST(EstimateFiles, TakeNoClockThatTicksDoNotFit) {
+  const Folder folder;
+  constexpr slam::Nanoseconds far = 3'900'000'000'000'000'000;
+  write_estimate(folder.path(), method_at({-far, 3'800'000'000'000'000'000, far}), {-far, far});
+  EXPECT_EQ(read_estimate_files(folder.path()).scans, (std::vector<slam::Nanoseconds>{-far, far}));
+}
+
 EstimateFiles scored_files() {
   EstimateFiles files;
   Tree& numbers = files.scores.emplace().numbers;
