@@ -53,11 +53,11 @@ bool Alternatives::is_one_better(const PlanIndex& index, const Tracked& tracked,
       std::find_if(all.begin(), all.end(), [&](const PoseHypothesis& c) { return is_same(c, tracked.pose); });
   // The ratio alone is no proof: among clutter, poses with planned walls in front of much of what is seen beat the
   // right one.
-  const double penetration_ratio = tracked.agreement.penetration_ratio_other_walls() + config_.penetration_ratio_margin;
+  const double penetration_ratio = tracked.agreement.penetration_ratio_otherwise() + config_.penetration_ratio_margin;
   const bool worse = std::any_of(all.begin(), all.end(), [&](const PoseHypothesis& c) {
     const bool likelier = own == all.end() || c.evidence - own->evidence >= config_.log_ratio;
     return !is_same(c, tracked.pose) && likelier && c.agreement.inliers >= tracked.agreement.inliers &&
-           c.agreement.penetration_ratio_other_walls() <= penetration_ratio;
+           c.agreement.penetration_ratio_otherwise() <= penetration_ratio;
   });
   if (!worse || confirming) hypotheses_.clear_hypotheses();
   return worse && confirming;

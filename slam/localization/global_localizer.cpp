@@ -102,7 +102,7 @@ void GlobalLocalizer::update_state(const PlanIndex& index, const StartPrior& sta
   // While it was tracked it may have stood elsewhere.
   if (since_alternatives_m_ == 0.0 && best_is_decisive() && !best_fits()) hypotheses_.replay_best_agreement(index);
   const bool fits = best_fits();
-  failed_updates_ = fit.penetration_ratio_other_walls() > c.restart_penetration_ratio ? failed_updates_ + 1 : 0;
+  failed_updates_ = fit.penetration_ratio_otherwise() > c.restart_penetration_ratio ? failed_updates_ + 1 : 0;
   if (failed_updates_ >= c.restart_updates) return restart();
 
   // Where the plan has no floor the leader says that the robot is outdoors, or that the plan is another building's.

@@ -52,7 +52,7 @@ struct ConvergenceConfig {
       plain_field("least mean of all its scans, also where inliers_min holds", {.min = -3, .max = 3}));
     // Among the beams that are not cut short; the wall that most beams penetrate may be missing.
     v("restart_penetration_ratio", restart_penetration_ratio,
-      share_field("share of penetrating beams, without those of the worst wall, that counts towards a restart",
+      share_field("share of penetrating beams, without those of one change, that counts towards a restart",
                   {.former = "restart_through"}));
     v("restart_updates", restart_updates,
       Field{.doc = "updates above this ratio after which the search restarts", .min = 1});

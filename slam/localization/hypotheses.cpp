@@ -41,7 +41,7 @@ LocalizationScan thinned(const LocalizationScan& scan, int n) {
 }  // namespace
 
 double FitConfig::of_scan(const Agreement& seen) const {
-  const double other = seen.penetration_ratio_other_walls();
+  const double other = seen.penetration_ratio_otherwise();
   if (other > misfit_penetration) return -misfit_scan;
   if (seen.inliers < inliers_doubtful || other > other_penetration_max) return -doubtful_scan;
   if (seen.inliers < inliers_min) return 0.0;  // beams cut short neither confirm the pose nor contradict it

@@ -43,10 +43,11 @@ struct FitConfig {
     v("most_a_scan", most_a_scan, plain_field("most that one scan counts for", {.min = 0}));
     v("penetration_max", penetration_max, share_field("largest penetration ratio of a scan that fits"));
     v("other_penetration_max", other_penetration_max,
-      share_field("largest penetration ratio without the worst wall of a scan that may fit, if that wall is missing"));
+      share_field(
+          "largest penetration ratio, without what one change of the building explains, of a scan that may fit"));
     v("missing_wall_scan", missing_wall_scan, plain_field("what such a scan counts for", {.min = 0}));
     v("misfit_penetration", misfit_penetration,
-      share_field("penetration ratio without the worst wall above which a scan does not fit"));
+      share_field("penetration ratio, without what one change explains, above which a scan does not fit"));
     v("misfit_scan", misfit_scan, plain_field("what such a scan counts against the pose", {.min = 0}));
     v("doubtful_scan", doubtful_scan, plain_field("what any other scan counts against it", {.min = 0}));
     v("clear_penetration", clear_penetration,

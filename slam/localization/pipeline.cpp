@@ -258,7 +258,7 @@ void SGraphLocalization::check_kidnap(const LocalizationScan& scan) {
   const Agreement fit = agreement(tracker_->storey(), X_IH, scan, config_.search.likelihood, config_.search.refine);
   agreement_.update_mean(fit, config_.search.hypotheses.ema_alpha);
   failed_updates_ =
-      fit.penetration_ratio_other_walls() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
+      fit.penetration_ratio_otherwise() > config_.monitor.lost_penetration_ratio ? failed_updates_ + 1 : 0;
   misfit_ = std::max(0.0, misfit_ - config_.search.hypotheses.fit.of_scan(fit));
   const int lost_updates = doubts_place_ ? 1 : config_.monitor.lost_updates;
   const bool has_left =

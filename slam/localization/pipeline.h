@@ -35,7 +35,7 @@ struct KidnapMonitorConfig {
   void visit(V& v) {
     // Measured: up to 0.09 on construction sites, 0.11 to 0.9 at wrong poses.
     v("lost_penetration_ratio", lost_penetration_ratio,
-      share_field("share of penetrating beams, without those of the worst wall, above which a scan contradicts",
+      share_field("share of penetrating beams, without those of one change, above which a scan contradicts",
                   {.basic = true, .former = "lost_through"}));
     v("lost_updates", lost_updates,
       Field{.doc = "contradicting updates in a row that withdraw a convergence", .min = 1, .basic = true});

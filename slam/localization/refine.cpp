@@ -63,6 +63,25 @@ class StructureResiduals {
   std::vector<double> across_;
 };
 
+/// Beams of one turn that should end at one wall and are not cut short, in their order.
+class WallBeams {
+ public:
+  void add(bool penetrates) {
+    ++(penetrates ? penetrating_ : met_);
+    in_a_row_ = penetrates ? in_a_row_ + 1 : 0;
+    if (met_ == 0) first_in_a_row_ = in_a_row_;
+    most_in_a_row_ = std::max(most_in_a_row_, in_a_row_);
+  }
+  /// How many of the penetrating beams one change of the building explains. The turn is closed: the last beam is beside
+  /// the first.
+  [[nodiscard]] int one_change() const {
+    return penetrating_ >= met_ ? penetrating_ : std::max(most_in_a_row_, first_in_a_row_ + in_a_row_);
+  }
+
+ private:
+  int met_ = 0, penetrating_ = 0, in_a_row_ = 0, first_in_a_row_ = 0, most_in_a_row_ = 0;
+};
+
 /// Weight of a residual under a Cauchy kernel of this scale.
 double cauchy_weight(double e, double scale) { return 1.0 / (1.0 + e * e / (scale * scale)); }
 
@@ -121,17 +140,20 @@ Refined refine(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationS
 Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan,
                     const LikelihoodConfig& likelihood, const RefineConfig& config) {
   const StructureResiduals residuals(storey, X_IH, scan, likelihood.beam_min_incidence);
-  int inliers = 0, penetrating = 0, penetrating_worst_wall = 0;
-  std::map<int, int> penetrating_element;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (std::abs(residuals.across(i)) <= config.inlier_m) ++inliers;
-    if (residuals.across(i) <= config.inlier_m) continue;
-    ++penetrating;
-    if (residuals.element(i) >= 0)
-      penetrating_worst_wall = std::max(penetrating_worst_wall, ++penetrating_element[residuals.element(i)]);
+  int inliers = 0, penetrating = 0;
+  std::map<int, WallBeams> walls;
+  const std::size_t size = residuals.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool meets = std::abs(residuals.across(i)) <= config.inlier_m;
+    const bool penetrates = residuals.across(i) > config.inlier_m;
+    inliers += meets ? 1 : 0;
+    penetrating += penetrates ? 1 : 0;
+    if (residuals.element(i) >= 0 && (meets || penetrates)) walls[residuals.element(i)].add(penetrates);
   }
+  int one_change = 0;
+  for (const auto& [element, beams] : walls) one_change = std::max(one_change, beams.one_change());
   const double count = std::max<double>(1.0, static_cast<double>(scan.beams.size()));
-  return {inliers / count, penetrating / count, penetrating_worst_wall / count};
+  return {inliers / count, penetrating / count, one_change / count};
 }
 
 }  // namespace plumbline::slam

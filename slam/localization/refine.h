@@ -55,19 +55,20 @@ struct Refined {
 struct Agreement {
   double inliers = 0.0;            ///< share of beams that end within inlier_m of the face they should hit
   double penetration_ratio = 0.0;  ///< share that penetrates a face of the plan; the rest is cut short, as by clutter
-  double penetration_ratio_worst_wall =
-      0.0;  ///< of these, through the wall that most beams penetrate: it may not be built
+  /// Of these, what one change of the building explains at most: a wall that is not built, where more beams penetrate
+  /// it than end at it, or one opening that is not planned, where beams penetrate a wall side by side.
+  double penetration_ratio_one_change = 0.0;
 
-  /// Share of penetrating beams among those that are not cut short, without the wall that most beams penetrate.
-  [[nodiscard]] double penetration_ratio_other_walls() const {
-    const double others = penetration_ratio - penetration_ratio_worst_wall;
+  /// Share of penetrating beams among those that are not cut short, without those of one change.
+  [[nodiscard]] double penetration_ratio_otherwise() const {
+    const double others = penetration_ratio - penetration_ratio_one_change;
     return others / (inliers + others + 1e-9);
   }
   /// Exponential moving average, in which the latest has this weight.
   void update_mean(const Agreement& latest, double weight) {
     inliers += weight * (latest.inliers - inliers);
     penetration_ratio += weight * (latest.penetration_ratio - penetration_ratio);
-    penetration_ratio_worst_wall += weight * (latest.penetration_ratio_worst_wall - penetration_ratio_worst_wall);
+    penetration_ratio_one_change += weight * (latest.penetration_ratio_one_change - penetration_ratio_one_change);
   }
 };
 [[nodiscard]] Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const LocalizationScan& scan,

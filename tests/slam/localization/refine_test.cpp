@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "bim/random/stream.h"
+#include "slam/localization/hypotheses.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
 
@@ -102,7 +105,38 @@ TEST(Refine, AWallThatWasNotBuiltIsOneWallFromItsInsideToo) {
   const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
   const Agreement inside = agreement(storey, heading(index.X_WI.inverse() * X_WR), scan, {}, {});
   EXPECT_GT(inside.penetration_ratio, 0.8);
-  EXPECT_LT(inside.penetration_ratio_other_walls(), 0.1);
+  EXPECT_LT(inside.penetration_ratio_otherwise(), 0.1);
+}
+
+/// What the plan, where one wall parts the room, says of scans in a building where that wall has openings (from and to,
+/// m).
+Agreement behind_openings(const std::vector<std::pair<double, double>>& openings) {
+  const synthetic::House room = synthetic::one_room(9.0, 6.0);
+  synthetic::House planned = room, built = room;
+  planned.boxes.push_back({{0.0, 3.0, 0.0}, {9.0, 3.2, 2.8}});
+  double x = 0.0;
+  for (const auto& [from, to] : openings) {
+    built.boxes.push_back({{x, 3.0, 0.0}, {from, 3.2, 2.8}});
+    x = to;
+  }
+  built.boxes.push_back({{x, 3.0, 0.0}, {9.0, 3.2, 2.8}});
+  const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
+  const Pose X_WR = Pose::from_xyz_yaw({4.5, 1.0, 0.46}, 0.2);
+  return agreement(index.storeys.front(), heading(index.X_WI.inverse() * X_WR),
+                   synthetic::house_scan(built, X_WR, Pose{}).scan, {}, {});
+}
+
+TEST(Refine, OneOpeningThatIsNotPlannedIsOneChange) {
+  const Agreement seen = behind_openings({{4.0, 5.0}});
+  EXPECT_GT(seen.penetration_ratio, 0.05);
+  EXPECT_LT(seen.penetration_ratio_otherwise(), 0.01);
+}
+
+// The doors of another building: the wall stands, and no single change explains its openings.
+TEST(Refine, ManyOpeningsInAWallThatStandsAreMoreThanOneChange) {
+  const Agreement seen = behind_openings({{2.3, 3.3}, {4.1, 4.9}, {5.7, 6.7}});
+  EXPECT_GT(seen.penetration_ratio_one_change, 0.03);
+  EXPECT_GT(seen.penetration_ratio_otherwise(), FitConfig{}.misfit_penetration);
 }
 
 TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {
