@@ -80,9 +80,11 @@ Tree to_json(const TrajectoryScores& scores) {
   if (!scores.reference) return tree;
   const score::ReferenceScore& by = *scores.reference;
   tree.set("matched", static_cast<std::int64_t>(by.matched)).set("ate_aligned_rmse_m", by.ate_aligned_rmse_m);
-  tree.set("step_error_median_m", by.step_error_median_m).set("step_error_max_m", by.step_error_max_m);
-  tree.set("step_rotation_median_deg", by.step_rotation_median_deg);
-  tree.set("step_rotation_max_deg", by.step_rotation_max_deg);
+  if (by.steps) {
+    tree.set("step_error_median_m", by.steps->median_m).set("step_error_max_m", by.steps->max_m);
+    tree.set("step_rotation_median_deg", by.steps->rotation_median_deg);
+    tree.set("step_rotation_max_deg", by.steps->rotation_max_deg);
+  }
   if (by.rpe_1m_rmse_m) tree.set("rpe_1m_rmse_m", *by.rpe_1m_rmse_m);
   if (by.rpe_1m_rotation_deg) tree.set("rpe_1m_rotation_deg", *by.rpe_1m_rotation_deg);
   return tree;
@@ -110,8 +112,10 @@ std::string line_of(const char* name, const TrajectoryScores& scores) {
       head + cell(scores.path.length_m, 2) + cell(scores.path.straightness, 3) + cell(scores.path.vertical_m, 2);
   if (!scores.reference) return text + "\n";
   const score::ReferenceScore& by = *scores.reference;
-  text += cell(static_cast<double>(by.matched), 0) + cell(by.ate_aligned_rmse_m, 3) + cell(by.step_error_median_m, 3);
-  text += cell(by.step_error_max_m, 3) + cell(by.step_rotation_median_deg, 3) + cell(by.step_rotation_max_deg, 3);
+  text += cell(static_cast<double>(by.matched), 0) + cell(by.ate_aligned_rmse_m, 3);
+  for (const auto error : {&score::StepErrors::median_m, &score::StepErrors::max_m,
+                           &score::StepErrors::rotation_median_deg, &score::StepErrors::rotation_max_deg})
+    text += cell(by.steps ? std::optional((*by.steps).*error) : std::nullopt, 3);
   return text + cell(by.rpe_1m_rmse_m, 3) + cell(by.rpe_1m_rotation_deg, 3) + "\n";
 }
 
@@ -129,7 +133,7 @@ const std::vector<std::string>& gate_names() {
     std::vector<std::string> all = {"coverage", "lost_share", "degenerate_share", "silence.silent_s"};
     TrajectoryScores every;
     every.path.straightness = 1.0;
-    every.reference.emplace();
+    every.reference.emplace().steps.emplace();
     every.reference->rpe_1m_rmse_m = every.reference->rpe_1m_rotation_deg = 0.0;
     const Tree tree = to_json(every);
     for (const auto& [key, value] : std::get<Tree::Map>(tree.value)) {
@@ -260,6 +264,9 @@ void compare(const MethodRecord& method, const ReferenceSource& source, ScoredEs
                                 : turn_to_robot(method.causal, reference, scored.numbers);
   scored.causal = score_one(method.causal, reference, source.file);
   scored.last = score_one(method.estimate.trajectory, reference, source.file);
+  if (positions_alone)
+    for (TrajectoryScores* scores : {&scored.causal, &scored.last})
+      if (scores->reference) scores->reference->drop_motion();
   scored.causal_covered = covered(method.causal, method.scans, reference);
   scored.last_covered = covered(method.estimate.trajectory, method.scans, reference);
   if (method.scans > 0 && !positions_alone)

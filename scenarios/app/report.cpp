@@ -75,8 +75,8 @@ int report(const ReportArguments& options) {
   refuse_altered(options.dir, run.altered, options.unchecked);
   const score::RunScore score = score::score_run(run);
   std::string written = "report: " + printable(options.dir) + "/report.html\n";
+  catch_interrupts();  // looked at after the scans; page and manifest appear together
   if (options.replay) {
-    catch_interrupts();
     const ScanPacker scans = simulate_scans(options.dir, run);
     check_interrupt();
     ReplayOptions most;

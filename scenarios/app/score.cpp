@@ -14,6 +14,7 @@
 #include "scenarios/app/outside_gate.h"
 #include "scenarios/app/summary.h"
 #include "scenarios/host/files.h"
+#include "scenarios/host/interrupt.h"
 #include "scenarios/host/manifest.h"
 #include "scenarios/host/terminal.h"
 #include "scenarios/run/ground_truth_recorder.h"
@@ -153,6 +154,7 @@ int score_again(const ScoreArguments& arguments) {
         std::any_of(outside.begin(), outside.end(), [&](const MethodRecord& m) { return m.name == method; });
     if (!is_new && std::find(dropped.begin(), dropped.end(), method) == dropped.end()) altered.push_back(name);
   }
+  catch_interrupts();  // which nothing looks at: files and manifest change together
   for (const std::string& name : dropped) remove_method(dir, name);
   for (const MethodRecord& method : outside) write_method(dir, method);
   if (!outside.empty() || !dropped.empty()) run = read_run(dir);

@@ -32,7 +32,7 @@ struct TurnedReference {
 
 /// What is said of errors by such a reference.
 inline constexpr std::string_view positions_alone_words =
-    "the reference has one orientation throughout: errors of steps, of rotation and over a metre say nothing";
+    "the reference has one orientation throughout: errors of steps, of rotation and over a metre are left out";
 /// Whether all poses of a reference have one orientation while the estimate turns: it holds positions alone.
 [[nodiscard]] bool is_without_orientation(const std::vector<slam::StampedPose>& reference_W,
                                           const std::vector<slam::StampedPose>& poses_F);

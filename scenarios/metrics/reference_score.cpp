@@ -38,10 +38,11 @@ void score_steps(const std::vector<PosePair>& pairs, ReferenceScore& score) {
     turns.push_back(degrees * log_so3(error.q).norm());
   }
   if (meters.empty()) return;
-  score.step_error_max_m = *std::max_element(meters.begin(), meters.end());
-  score.step_rotation_max_deg = *std::max_element(turns.begin(), turns.end());
-  score.step_error_median_m = median(std::move(meters));
-  score.step_rotation_median_deg = median(std::move(turns));
+  StepErrors& steps = score.steps.emplace();
+  steps.max_m = *std::max_element(meters.begin(), meters.end());
+  steps.rotation_max_deg = *std::max_element(turns.begin(), turns.end());
+  steps.median_m = median(std::move(meters));
+  steps.rotation_median_deg = median(std::move(turns));
 }
 
 }  // namespace

@@ -27,17 +27,24 @@ struct PathScore {
 };
 [[nodiscard]] PathScore score_path(const std::vector<slam::StampedPose>& poses_F);
 
+/// Errors of the motion from each pose of a reference to the next one.
+struct StepErrors {
+  double median_m = 0.0;
+  double max_m = 0.0;
+  double rotation_median_deg = 0.0;
+  double rotation_max_deg = 0.0;
+};
+
 /// Poses beside those of a reference, of one robot and one frame of it.
 struct ReferenceScore {
-  std::size_t matched = 0;          ///< reference poses
-  double ate_aligned_rmse_m = 0.0;  ///< after the best rigid alignment
-  /// Of the motion from each reference pose to the next one.
-  double step_error_median_m = 0.0;
-  double step_error_max_m = 0.0;
-  double step_rotation_median_deg = 0.0;
-  double step_rotation_max_deg = 0.0;
+  std::size_t matched = 0;                    ///< reference poses
+  double ate_aligned_rmse_m = 0.0;            ///< after the best rigid alignment
+  std::optional<StepErrors> steps;            ///< absent where no two poses in a row match
   std::optional<double> rpe_1m_rmse_m;        ///< over each metre of the reference
   std::optional<double> rpe_1m_rotation_deg;  ///< mean
+
+  /// Leaves what a reference of positions alone can tell.
+  void drop_motion() { *this = {matched, ate_aligned_rmse_m, {}, {}, {}}; }
 };
 
 /// The estimate at each stamp of the reference, interpolated. Both must be in time order and not empty.

@@ -123,7 +123,7 @@ TEST_F(EstimatePages, OfAlteredFilesAreRefusedOrNameThem) {
   const Outcome taken = plumbline({"report", dir, "--unchecked"});
   EXPECT_EQ(taken.code, 0) << taken.err;
   EXPECT_NE(
-      read_file(dir + "/report.html").find("this estimate were altered after they were written: s_graphs_plus.tum"),
+      read_file(dir + "/report.html").find("this estimate were altered or added after it was written: s_graphs_plus.tum"),
       std::string::npos);
   EXPECT_EQ(plumbline({"report", dir}).code, 2) << "what was altered stays so";
 }
@@ -227,7 +227,7 @@ TEST_F(EstimatePages, BelieveNoFileThatWasAdded) {
     const Outcome taken = plumbline({"report", dir, "--unchecked"});
     EXPECT_EQ(taken.code, 0) << taken.err;
     const std::string shown = read_file(dir + "/report.html");
-    EXPECT_NE(shown.find("altered after they were written: " + name), std::string::npos);
+    EXPECT_NE(shown.find("altered or added after it was written: " + name), std::string::npos);
     EXPECT_EQ(shown.find("javascript:"), std::string::npos);
     EXPECT_EQ(plumbline({"report", dir}).code, 2) << "what was added stays so";
   }

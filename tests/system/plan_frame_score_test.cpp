@@ -79,6 +79,8 @@ TEST_F(PlanFrameScore, AReferenceOfPositionsAloneJudgesNoHeading) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(scores()["verdict"], "success");
   EXPECT_FALSE(scores()["localization"].contains("yaw_rmse_deg"));
+  for (const char* of_motion : {"step_error_max_m", "step_rotation_median_deg", "rpe_1m_rmse_m", "rpe_1m_rotation_deg"})
+    EXPECT_FALSE(scores()["causal"].contains(of_motion)) << of_motion;
 }
 
 // As of a total station that loses sight of the robot: what lies between is not known.

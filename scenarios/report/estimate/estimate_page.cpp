@@ -59,7 +59,7 @@ std::string altered_item(const std::string& whose, const std::vector<std::string
   for (const std::string& name : files) names += (names.empty() ? "" : ", ") + name;
   return files.empty()
              ? ""
-             : "<li>Files of " + whose + " were altered after they were written: " + svg::escape(names) + "</li>";
+             : "<li>Files of " + whose + " were altered or added after it was written: " + svg::escape(names) + "</li>";
 }
 
 std::string list_warnings(const EstimatePage& page) {

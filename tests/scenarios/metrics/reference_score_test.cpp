@@ -52,8 +52,8 @@ TEST(ReferenceScore, TheReferenceInAnyFrameScoresZero) {
     EXPECT_EQ(score->matched, reference.size());
     // Rounding of coordinates of 100 m; angles come from the small end of an arc cosine or sine.
     EXPECT_LT(score->ate_aligned_rmse_m, 1e-11);
-    EXPECT_LT(score->step_error_max_m, 1e-11);
-    EXPECT_LT(score->step_rotation_max_deg, 1e-5);
+    EXPECT_LT(score->steps->max_m, 1e-11);
+    EXPECT_LT(score->steps->rotation_max_deg, 1e-5);
     EXPECT_LT(*score->rpe_1m_rmse_m, 1e-11);
     EXPECT_LT(*score->rpe_1m_rotation_deg, 1e-5);
   }
@@ -65,8 +65,8 @@ TEST(ReferenceScore, OneStepThatIsTooLongIsTheLargestError) {
   for (std::size_t i = 11; i < poses.size(); ++i) poses[i].X_FR.t.x() += 0.3;
   const auto score = score_by_reference(reference, poses);
   ASSERT_TRUE(score);
-  EXPECT_NEAR(score->step_error_max_m, 0.3, 1e-12);
-  EXPECT_NEAR(score->step_error_median_m, 0.0, 1e-12);
+  EXPECT_NEAR(score->steps->max_m, 0.3, 1e-12);
+  EXPECT_NEAR(score->steps->median_m, 0.0, 1e-12);
   // 11 poses 0.3 m behind 10 others: about their mean, 0.3 sqrt(11 * 10) / 21.
   EXPECT_NEAR(score->ate_aligned_rmse_m, 0.3 * std::sqrt(110.0) / 21.0, 1e-12);
   // Stretches of a metre start at 19 poses, and two of them go over the long step.
@@ -82,9 +82,9 @@ TEST(ReferenceScore, OneTurnTooMuchIsARotationError) {
   }
   const auto score = score_by_reference(reference, poses);
   ASSERT_TRUE(score);
-  EXPECT_NEAR(score->step_rotation_max_deg, 0.1 * 180.0 / std::numbers::pi, 1e-9);
-  EXPECT_NEAR(score->step_rotation_median_deg, 0.0, 1e-6);
-  EXPECT_NEAR(score->step_error_max_m, 0.0, 1e-12);
+  EXPECT_NEAR(score->steps->rotation_max_deg, 0.1 * 180.0 / std::numbers::pi, 1e-9);
+  EXPECT_NEAR(score->steps->rotation_median_deg, 0.0, 1e-6);
+  EXPECT_NEAR(score->steps->max_m, 0.0, 1e-12);
 }
 
 TEST(ReferenceScore, AHillCountsAsWay) {
@@ -107,7 +107,7 @@ TEST(ReferenceScore, TheEstimateIsInterpolatedWithinItsSpan) {
   ASSERT_TRUE(score);
   EXPECT_EQ(score->matched, 20U);
   EXPECT_LT(score->ate_aligned_rmse_m, 1e-12);
-  EXPECT_LT(score->step_error_max_m, 1e-12);
+  EXPECT_LT(score->steps->max_m, 1e-12);
 }
 
 TEST(ReferenceScore, NothingIsInterpolatedWhereTheEstimateIsSilent) {
@@ -119,7 +119,7 @@ TEST(ReferenceScore, NothingIsInterpolatedWhereTheEstimateIsSilent) {
   EXPECT_EQ(pairs.size(), 22U);
   for (const PosePair& pair : pairs) EXPECT_TRUE(pair.scan <= 10 || pair.scan >= 30) << pair.scan;
   // The step over the silence is none.
-  EXPECT_LT(score_by_reference(reference, estimate)->step_error_max_m, 1e-12);
+  EXPECT_LT(score_by_reference(reference, estimate)->steps->max_m, 1e-12);
 }
 
 TEST(ReferenceScore, OtherTimesMatchNothing) {
