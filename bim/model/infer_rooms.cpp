@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "bim/geometry/interval.h"
 #include "bim/geometry/polygon_boolean.h"
@@ -58,32 +60,47 @@ std::vector<Wall> walls_near(const Polygon2& outline, const std::vector<Wall>& w
   return near;
 }
 
-/// Curtain panels, plates and mullions that cross the slice, as walls: they close rooms as walls do. Their ends are
-/// stretched over the joints between them.
-void add_fronts(const Building& building, double slice_m, double joint_m, std::vector<Wall>& walls) {
+/// A flat body that crosses the slice as a wall, its ends stretched over the joints beside it.
+std::optional<Wall> front_of(const Solid& body, double slice_m, double joint_m) {
   constexpr double most_thickness_m = 0.6;
+  Polygon2 corners;
+  Interval height;
+  for (const Eigen::Vector3d& p : body.vertices) {
+    corners.push_back(p.head<2>());
+    height.add(p.z());
+  }
+  if (height.low > slice_m || height.high < slice_m) return std::nullopt;
+  const ThinRectangle rectangle = thinnest_rectangle(convex_hull(std::move(corners)));
+  if (rectangle.width_m <= 0.0 || rectangle.width_m > most_thickness_m) return std::nullopt;
+  Wall wall;
+  const Eigen::Vector2d e = (rectangle.b - rectangle.a).normalized() * joint_m;
+  wall.a = rectangle.a - e;
+  wall.b = rectangle.b + e;
+  wall.thickness_m = rectangle.width_m;
+  wall.offset_m = -0.5 * rectangle.width_m;
+  wall.z0_m = height.low;
+  wall.z1_m = height.high;
+  return wall;
+}
+
+/// Curtain panels, plates and mullions close rooms as walls do, and so do doors between them.
+void add_fronts(const Building& building, const std::vector<FreeDoor>& doors, double slice_m, double joint_m,
+                std::vector<Wall>& walls) {
+  const auto add = [&](const Solid& body) {
+    if (std::optional<Wall> wall = front_of(body, slice_m, joint_m)) walls.push_back(std::move(*wall));
+  };
   for (const Obstacle& obstacle : building.obstacles) {
     const std::string& kind = obstacle.kind;
-    if (kind != "curtain_panel" && kind != "mullion" && kind != "curtain_wall" && kind != "plate") continue;
-    Polygon2 corners;
-    Interval height;
-    for (const Eigen::Vector3d& p : obstacle.body.vertices) {
-      corners.push_back(p.head<2>());
-      height.add(p.z());
-    }
-    if (height.low > slice_m || height.high < slice_m) continue;
-    const ThinRectangle rectangle = thinnest_rectangle(convex_hull(std::move(corners)));
-    if (rectangle.width_m <= 0.0 || rectangle.width_m > most_thickness_m) continue;
-    Wall wall;
-    const Eigen::Vector2d e = (rectangle.b - rectangle.a).normalized() * joint_m;
-    wall.a = rectangle.a - e;
-    wall.b = rectangle.b + e;
-    wall.thickness_m = rectangle.width_m;
-    wall.offset_m = -0.5 * rectangle.width_m;
-    wall.z0_m = height.low;
-    wall.z1_m = height.high;
-    walls.push_back(std::move(wall));
+    if (kind == "curtain_panel" || kind == "mullion" || kind == "curtain_wall" || kind == "plate") add(obstacle.body);
   }
+  for (const FreeDoor& door : doors) add(door.body);
+}
+
+/// Whether a slab or a roof reaches over the height z, m, somewhere above the middle of an outline.
+bool is_covered(const Building& building, const Polygon2& outline, double z_m) {
+  const Eigen::Vector2d inner = interior_point(outline);
+  return std::any_of(building.slabs.begin(), building.slabs.end(),
+                     [&](const Slab& slab) { return slab.z1_m > z_m && contains(slab.polygon, inner); });
 }
 
 /// The level floor that most of an outline lies on, of equal ones the lowest; the storey's elevation without one.
@@ -139,55 +156,80 @@ int owner_of(const Building& building, const Room& room, double beside_m) {
   return best;
 }
 
-}  // namespace
-
-std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
-  return infer_rooms(building, storey, floor_pieces(building), config);
-}
-
-std::vector<Room> infer_rooms(const Building& building, int storey, const std::vector<FloorPiece>& all_floors,
-                              const RoomInferenceConfig& config) {
-  const Storey& level = building.storeys[static_cast<std::size_t>(storey)];
-  if (level.height_m < config.least_height_m) return {};
-  const double slice_m = level.elevation_m + config.slice_m;
+/// What is cut at a height: straight walls, and the footprints of all.
+struct Slice {
   std::vector<Wall> walls;
   std::vector<Polygon2> footprints;
+};
+
+Slice slice_at(const Building& building, const std::vector<FreeDoor>& doors, double slice_m,
+               const RoomInferenceConfig& config) {
+  Slice slice;
   for (std::size_t i = 0; i < building.walls.size(); ++i) {
     const Wall& wall = building.walls[i];
     if (wall.z0_m > slice_m || wall.z1_m < slice_m) continue;
     if (is_straight(wall, openings_of(building, static_cast<int>(i)), {wall.z0_m, wall.z1_m})) {
-      walls.push_back(wall);
+      slice.walls.push_back(wall);
       continue;
     }
     // A curved one: its faces as walls of their own, and what is between them.
-    for (Wall& face : surface_walls(wall, slice_m, config.closing_m)) walls.push_back(std::move(face));
+    for (Wall& face : surface_walls(wall, slice_m, config.closing_m)) slice.walls.push_back(std::move(face));
     for (const Eigen::Vector3i& t : wall.body->triangles) {
-      Polygon2& triangle = footprints.emplace_back();
+      Polygon2& triangle = slice.footprints.emplace_back();
       for (const int corner : t) triangle.push_back(wall.body->vertices[static_cast<std::size_t>(corner)].head<2>());
     }
   }
-  add_fronts(building, slice_m, config.closing_m, walls);
-  std::vector<FloorPiece> floors;
-  std::copy_if(all_floors.begin(), all_floors.end(), std::back_inserter(floors),
-               [&](const FloorPiece& piece) { return piece.storey == storey; });
-  for (const Wall& wall : walls) footprints.push_back(footprint(grown(wall, config.closing_m)));
-  std::vector<Room> rooms;
-  for (const PolygonWithHoles2& piece : unite(footprints)) {
+  add_fronts(building, doors, slice_m, config.closing_m, slice.walls);
+  for (const Wall& wall : slice.walls) slice.footprints.push_back(footprint(grown(wall, config.closing_m)));
+  return slice;
+}
+
+/// Clear outlines of what a slice encloses.
+std::vector<Polygon2> enclosed_by(const Slice& slice, const RoomInferenceConfig& config) {
+  std::vector<Polygon2> enclosed;
+  for (const PolygonWithHoles2& piece : unite(slice.footprints)) {
     for (Polygon2 hole : piece.holes) {
       std::reverse(hole.begin(), hole.end());
       // Grown past the wall faces and cut back to them.
       const Polygon2 outline = grown(hole, 2.0 * config.closing_m);
-      const std::vector<Polygon2> outlines = clear_outlines(outline, walls_near(outline, walls));
+      std::vector<Polygon2> outlines = clear_outlines(outline, walls_near(outline, slice.walls));
       if (outlines.empty() || signed_area(outlines.front()) < config.least_area_m2) continue;
-      Room room;
-      room.id = level.id + "/room" + std::to_string(rooms.size() + 1);
-      room.name = "room " + std::to_string(rooms.size() + 1);
-      room.storey = storey;
-      room.polygon = outlines.front();
-      room.z0_m = floor_of(room.polygon, floors, level);
-      room.z1_m = level.elevation_m + level.height_m;
-      if (owner_of(building, room, config.beside_m) == storey) rooms.push_back(std::move(room));
+      enclosed.push_back(std::move(outlines.front()));
     }
+  }
+  return enclosed;
+}
+
+}  // namespace
+
+std::vector<Room> infer_rooms(const Building& building, int storey, const RoomInferenceConfig& config) {
+  return infer_rooms(building, storey, floor_pieces(building), {}, config);
+}
+
+std::vector<Room> infer_rooms(const Building& building, int storey, const std::vector<FloorPiece>& all_floors,
+                              const std::vector<FreeDoor>& doors, const RoomInferenceConfig& config) {
+  const Storey& level = building.storeys[static_cast<std::size_t>(storey)];
+  if (level.height_m < config.least_height_m) return {};
+  const double slice_m = level.elevation_m + config.slice_m;
+  std::vector<Polygon2> outlines = enclosed_by(slice_at(building, doors, slice_m, config), config);
+  if (outlines.empty()) {
+    outlines = enclosed_by(slice_at(building, doors, level.elevation_m + config.low_slice_m, config), config);
+    // A parapet encloses no room.
+    std::erase_if(outlines, [&](const Polygon2& outline) { return !is_covered(building, outline, slice_m); });
+  }
+  std::vector<FloorPiece> floors;
+  std::copy_if(all_floors.begin(), all_floors.end(), std::back_inserter(floors),
+               [&](const FloorPiece& piece) { return piece.storey == storey; });
+  std::vector<Room> rooms;
+  for (Polygon2& outline : outlines) {
+    Room room;
+    room.id = level.id + "/room" + std::to_string(rooms.size() + 1);
+    room.name = "room " + std::to_string(rooms.size() + 1);
+    room.storey = storey;
+    room.polygon = std::move(outline);
+    room.z0_m = floor_of(room.polygon, floors, level);
+    room.z1_m = level.elevation_m + level.height_m;
+    if (owner_of(building, room, config.beside_m) == storey) rooms.push_back(std::move(room));
   }
   return rooms;
 }

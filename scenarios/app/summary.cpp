@@ -83,6 +83,23 @@ std::string sure_and_wrong(const score::MethodScore& method, const std::vector<s
   return method.name + ": CONVERGED " + what + "; no gate asks for it: " + std::string(metric) + "<=0";
 }
 
+/// Says how long a method that was not localized again after a kidnapping was CONVERGED on a wrong pose, where none of
+/// its gates fails and none asks for that; else empty. Its verdict is of the time before.
+std::string wrong_after_kidnap(const score::MethodScore& method, const std::vector<score::GateResult>& gates) {
+  constexpr std::string_view metric = "localization.kidnap_wrong_s";
+  if (!method.localization || method.localization->kidnap_found_s) return "";
+  const double wrong_s = method.localization->kidnap_wrong_s.value_or(0.0);
+  if (!(wrong_s > 0.0)) return "";
+  if (std::any_of(gates.begin(), gates.end(), [&](const score::GateResult& gate) {
+        return gate.method == method.name && (!gate.passed || gate.metric == metric);
+      }))
+    return "";
+  char time[32];
+  std::snprintf(time, sizeof(time), "%.1f s", wrong_s);
+  return method.name + ": CONVERGED on a wrong pose for up to " + time +
+         " after the kidnapping; no gate asks for it: " + std::string(metric) + "<=0";
+}
+
 /// What the columns do not show of a method's answers: how often it disclaimed them, and rooms that are none.
 std::string beside_columns(const score::MethodScore& method) {
   std::string text;
@@ -155,6 +172,9 @@ std::string summarise(const FinishedRun& run, const score::RunScore& score) {
     text += (method.crashed() ? "FAILED: " : "not judged: ") + printable(method.method + ": " + method.what) + "\n";
   for (const score::MethodScore& method : score.methods)
     if (const std::string said = sure_and_wrong(method, score.gates); !said.empty())
+      text += "warning: " + printable(said) + "\n";
+  for (const score::MethodScore& method : score.methods)
+    if (const std::string said = wrong_after_kidnap(method, score.gates); !said.empty())
       text += "warning: " + printable(said) + "\n";
   for (const score::GateResult& gate : score.gates)
     text += (gate.passed ? "passed: " : "FAILED: ") + score::describe(gate) + "\n";

@@ -92,10 +92,10 @@ std::string after_kidnap(const ReportInput& input, const Tree* where) {
   if (!wrong || !input.kidnap) return "";
   const auto found = number_of(where, "kidnap_found_s");
   const double down_s = input.kidnap->set_down_s;
-  const std::string text =
-      " Kidnapped at t = " + svg::number(input.kidnap->lifted_s, 1) + " s, set down at t = " + svg::number(down_s, 1) +
-      " s. From there on " +
-      (*wrong > 0.0 ? "a wrong answer stood for up to " + svg::number(*wrong, 1) + " s" : "it gave no wrong answer");
+  const std::string text = " Kidnapped at t = " + svg::number(input.kidnap->lifted_s, 1) +
+                           " s, set down at t = " + svg::number(down_s, 1) + " s. From there on " +
+                           (*wrong > 0.0 ? "it was CONVERGED on a wrong pose for up to " + svg::number(*wrong, 1) + " s"
+                                         : "it gave no wrong answer");
   return text + (found ? ", and it was localized again at t = " + svg::number(down_s + *found, 1) + " s, " +
                              svg::number(*found, 1) + " s after it was set down."
                        : ", and it was not localized again for good.");

@@ -144,5 +144,32 @@ TEST(Summary, WarnsOfAnAnswerThatIsSureAndWrongWhereNoGateAsksForIt) {
   EXPECT_FALSE(says(""));
 }
 
+TEST(Summary, WarnsOfAWrongAnswerAfterAKidnappingWhereNoGateAsksForIt) {
+  Judged judged;
+  score::LocalizationScore& where = judged.score.methods[1].localization.emplace();
+  where.verdict = score::LocalizationVerdict::success;
+  where.converged_at_s = 6.0;
+  const auto says = [&] {
+    return summarise(judged.run, judged.score)
+               .find(
+                   "warning: un judged: CONVERGED on a wrong pose for up to 4.5 s after the kidnapping; no gate asks "
+                   "for it: localization.kidnap_wrong_s<=0\n") != std::string::npos;
+  };
+  where.kidnap_wrong_s = 0.0;
+  EXPECT_FALSE(says());
+  where.kidnap_wrong_s = 4.52;
+  EXPECT_TRUE(says()) << summarise(judged.run, judged.score);
+  score::GateResult& asked = judged.score.gates.emplace_back();
+  asked.method = "un judged";
+  asked.metric = "localization.sure_and_wrong";
+  asked.passed = true;
+  EXPECT_TRUE(says()) << "that gate is of the verdict, which is of the time before";
+  asked.metric = "localization.kidnap_wrong_s";
+  EXPECT_FALSE(says());
+  judged.score.gates.clear();
+  where.kidnap_found_s = 5.0;
+  EXPECT_FALSE(says()) << "it noticed";
+}
+
 }  // namespace
 }  // namespace plumbline::scenarios

@@ -67,6 +67,7 @@ TEST(Report, NamesAMethodThatIsNotLocalizedAgainAfterAKidnappingUnlessAGateDoes)
   };
   const std::string badge = "m: not localized again after the kidnapping, not judged";
   EXPECT_NE(page().find(badge), std::string::npos);
+  EXPECT_NE(page().find("it was CONVERGED on a wrong pose for up to 1"), std::string::npos);
   const Tree converged = std::exchange(where, Tree::map().set("kidnap_wrong_s", 1.0));  // it never was localized
   EXPECT_NE(page().find("m: not localized after the kidnapping either, not judged"), std::string::npos);
   where = converged;

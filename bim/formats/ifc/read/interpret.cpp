@@ -287,8 +287,13 @@ void Interpreter::add_missing_rooms(const std::vector<NamedPlace>& places) {
     const bool several = std::any_of(buildings_.begin(), buildings_.end(),
                                      [&](const auto& b) { return !same_building(storey, b.first); });
     if (!several && !floors) floors = floor_pieces(building_);
-    std::vector<Room> rooms =
-        several ? infer_rooms(only_building_of(storey), storey) : infer_rooms(building_, storey, *floors);
+    std::vector<Room> rooms;
+    if (several) {
+      const Building own = only_building_of(storey);
+      rooms = infer_rooms(own, storey, floor_pieces(own), free_doors_);
+    } else {
+      rooms = infer_rooms(building_, storey, *floors, free_doors_);
+    }
     std::erase_if(rooms, [&](const Room& room) { return is_given(room, given, given_boxes); });
     name_by_outlines(places, rooms);
     if (rooms.empty() && given.empty() && is_built(building_, storey))

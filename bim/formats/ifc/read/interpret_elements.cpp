@@ -71,12 +71,12 @@ double area_in_walls(const Room& room, const Region2& outline, const std::vector
 }
 
 /// Whether the second of two spaces in one place is the better room. It is the larger one, unless most of what that has
-/// more lies in walls, as where it goes on to their axes; of equal ones the first.
+/// more lies in walls, as where it goes on to their axes; of equal ones the first of the file.
 bool second_is_the_room(const Room& a, const Region2& outline_a, const Room& b, const Region2& outline_b,
                         const std::vector<Wall>& walls) {
   constexpr double same_m2 = 0.01, most_share = 0.5;
   const double more = area(outline_b) - area(outline_a);
-  if (std::abs(more) < same_m2) return false;
+  if (std::abs(more) < same_m2) return b.step_id < a.step_id;
   const double in_walls = area_in_walls(b, outline_b, walls) - area_in_walls(a, outline_a, walls);
   const bool larger_is_net = in_walls / more < most_share;
   return (more > 0.0) == larger_is_net;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bim/formats/ifc/step/georeference.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -53,6 +54,16 @@ bool within_reach(const StepProduct& product, const GeoreferenceConfig& config) 
   }
   return within(in_world, config.furthest_m) && within(body, config.furthest_m) &&
          (body.isEmpty() || body.sizes().maxCoeff() <= config.largest_m);
+}
+
+bool is_finite(const StepProduct& product) {
+  Eigen::AlignedBox3d box;
+  const auto finite = [&](const Facets& facets) { return extend(box, facets.points); };
+  return extend(box, product.axis_W) && extend(box, {product.X_WP.translation()}) &&
+         std::all_of(product.body.begin(), product.body.end(), [&](const Shape& shape) {
+           return finite(shape.base) && std::all_of(shape.minus.begin(), shape.minus.end(), finite) &&
+                  std::all_of(shape.within.begin(), shape.within.end(), finite);
+         });
 }
 
 Eigen::Vector3d extent_of_building(const StepModel& model) {

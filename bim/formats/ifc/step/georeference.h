@@ -18,6 +18,9 @@ struct GeoreferenceConfig {
 /// False where a coordinate is not a number or out of reach, or a body is too large.
 [[nodiscard]] bool within_reach(const StepProduct& product, const GeoreferenceConfig& config = {});
 
+/// Whether every coordinate of a product's place, axis and body is a number.
+[[nodiscard]] bool is_finite(const StepProduct& product);
+
 /// Extents of what walls, floors and spaces hold, m; those of nothing are negative.
 [[nodiscard]] Eigen::Vector3d extent_of_building(const StepModel& model);
 

@@ -20,6 +20,7 @@
 #include <ifcpp/IFC4/include/IfcShapeRepresentation.h>
 #include <ifcpp/IFC4/include/IfcSphere.h>
 #include <ifcpp/IFC4/include/IfcSurfaceCurveSweptAreaSolid.h>
+#include <ifcpp/IFC4/include/IfcSweptDiskSolid.h>
 #include <ifcpp/geometry/Carve/RepresentationConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
@@ -29,6 +30,7 @@
 
 #include "bim/formats/ifc/step/half_space.h"
 #include "bim/formats/ifc/step/step_conics.h"
+#include "bim/formats/ifc/step/step_disk.h"
 #include "bim/formats/ifc/step/step_facets.h"
 
 namespace plumbline::bim {
@@ -155,6 +157,10 @@ struct StepGeometry::Impl {
     if (std::dynamic_pointer_cast<IfcExtrudedAreaSolidTapered>(item) ||
         std::dynamic_pointer_cast<IfcRevolvedAreaSolidTapered>(item))
       report(std::string(item->className()) + " whose profiles are bent or differ in corners keeps its first profile");
+    const auto disk = std::dynamic_pointer_cast<IfcSweptDiskSolid>(item);
+    if (disk && disk->m_Radius)
+      if (const std::vector<Eigen::Vector3d> line = points_of(disk->m_Directrix); begins_upright(line))
+        return add({swept_disk(line, size_of(*disk))}, *item, X, shapes);
     const auto data = std::make_shared<ItemShapeData>();
     const auto& solids = converter.getSolidConverter();
     if (const auto half_space = std::dynamic_pointer_cast<IfcHalfSpaceSolid>(item)) {
@@ -166,6 +172,20 @@ struct StepGeometry::Impl {
       if (const auto revolved = std::dynamic_pointer_cast<IfcRevolvedAreaSolid>(item)) revolve_finely(revolved, *data);
     }
     add(facets_of(*data), *item, X, shapes);
+  }
+
+  [[nodiscard]] std::vector<Eigen::Vector3d> points_of(const std::shared_ptr<IfcCurve>& curve) {
+    std::vector<carve::geom::vector<3>> points, starts;
+    if (curve) converter.getCurveConverter()->convertIfcCurve(curve, points, starts);
+    std::vector<Eigen::Vector3d> line;
+    for (const auto& p : points) line.emplace_back(p.x, p.y, p.z);
+    return line;
+  }
+
+  [[nodiscard]] SweptDisk size_of(const IfcSweptDiskSolid& disk) const {
+    const double radius_m = unit_m * disk.m_Radius->m_value;
+    const double inner_m = disk.m_InnerRadius ? unit_m * disk.m_InnerRadius->m_value : 0.0;
+    return {radius_m, inner_m, corners_of_circle(radius_m)};
   }
 
   /// IFC++ takes the radius of a sphere for metres, whatever the file's unit.
@@ -207,8 +227,15 @@ struct StepGeometry::Impl {
 
   void add(std::vector<Facets> parts, const IfcRepresentationItem& item, const Eigen::Affine3d& X,
            std::vector<Shape>& shapes) {
+    const std::size_t unbounded = std::erase_if(parts, [](const Facets& facets) {
+      return !std::all_of(facets.points.begin(), facets.points.end(), [](const auto& p) { return p.allFinite(); });
+    });
+    if (unbounded > 0)
+      report("an item of the class " + std::string(item.className()) +
+             " has corners that are not numbers, and is left out");
     std::erase_if(parts, [](const Facets& facets) { return facets.loops.empty(); });
-    if (parts.empty()) report("an item of the class " + std::string(item.className()) + " gives no surface");
+    if (parts.empty() && unbounded == 0)
+      report("an item of the class " + std::string(item.className()) + " gives no surface");
     const OddFaces odd = parts.empty() ? OddFaces{} : odd_faces(item);
     if (odd.unread > 0)
       report(std::to_string(odd.unread) + " faces have edges along curves that are not read, and are left out");

@@ -268,7 +268,8 @@ class Reader {
     if (source->m_Representation) read_geometry(source, model.unit_m, product);
     if (bounded_ && !within_reach(product)) {
       ++model.out_of_reach;
-      fail(product.step_id, product.type + " is larger than 10 km or further than 100000 km");
+      fail(product.step_id, product.type + (is_finite(product) ? " is larger than 10 km or further than 100000 km"
+                                                               : " has coordinates that are not numbers"));
     }
     return product;
   }

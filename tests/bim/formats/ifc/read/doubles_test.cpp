@@ -52,6 +52,29 @@ TEST(Doubles, SpacesInOnePlaceAreOneRoom) {
   }
 }
 
+/// Ids are made at random.
+TEST(Doubles, OfEqualSpacesTheFirstOfTheFileIsTheRoom) {
+  for (const bool swapped : {false, true}) {
+    Sketch sketch;
+    const std::string storey = sketch.storey(0);
+    sketch.slab({{0, 0}, {8, 0}, {8, 6}, {0, 6}}, -0.2, 0);
+    add_walls(sketch, 0.0);
+    for (const bool again : {false, true}) {
+      const std::string id(22, again == swapped ? 'a' : 'b'), name = again ? "second" : "first";
+      const std::string at = sketch.add("IFCLOCALPLACEMENT($," + sketch.frame(0, 0, 0) + ")");
+      const std::string shape = sketch.shape(sketch.box(0.1, 0.1, 0, 3.85, 5.9, 2.8));
+      const std::string space =
+          sketch.add("IFCSPACE('" + id + "',$,'" + name + "',$,$," + at + "," + shape + ",$,.ELEMENT.,.INTERNAL.,$)");
+      sketch.rooted("IFCRELAGGREGATES", "$,$," + storey + ",(" + space + ")");
+    }
+    const Building building = read(sketch);
+    ASSERT_EQ(count(building, "double_space"), 1);
+    const auto named = [](const char* name) { return [name](const Room& room) { return room.name == name; }; };
+    EXPECT_TRUE(std::any_of(building.rooms.begin(), building.rooms.end(), named("first"))) << swapped;
+    EXPECT_FALSE(std::any_of(building.rooms.begin(), building.rooms.end(), named("second"))) << swapped;
+  }
+}
+
 TEST(Doubles, ACorridorAroundACoreIsNotInItsPlace) {
   Sketch sketch;
   const std::string storey = sketch.storey(0);

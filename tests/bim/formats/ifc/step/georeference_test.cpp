@@ -87,6 +87,8 @@ TEST(WithinReach, BoundsPlacesAndSizes) {
   StepProduct odd = wall_at({0, 0, 0});
   odd.body.front().base.points.front().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(within_reach(odd));
+  EXPECT_FALSE(is_finite(odd)) << "it is not said to be too large";
+  EXPECT_TRUE(is_finite(large));
 }
 
 }  // namespace
