@@ -224,6 +224,10 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   const Matrix6d information = ties_nothing() ? tied_information() : step_information(odometry, step.t.norm());
   level_agreement_.add_step(step, information.llt().solve(Matrix6d::Identity()));
   level_agreement_.drop_contradicted(seen);
+  if (const std::optional<int> first = level_agreement_.sloping_since()) {
+    walls_.release_floors(graph_, *first);
+    global_solve_requested_ = global_solve_urgent_ = true;
+  }
   drop_tilted_planes(seen, X_MR, config_.floors);
   const int from = static_cast<int>(graph_.keyframes.size()) - 1;
   walked_m_ += step.t.norm();

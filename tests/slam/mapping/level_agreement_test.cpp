@@ -8,7 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "slam/graph/optimize.h"
 #include "slam/mapping/s_graphs_plus.h"
+#include "slam/mapping/wall_layer.h"
 #include "tests/slam/mapping/seen_planes.h"
 
 namespace plumbline::slam {
@@ -76,6 +78,77 @@ TEST(LevelAgreement, ContradictsNothingThatOdometryIsNotSureOf) {
   LevelAgreement sure{{}}, unsure{{}};
   EXPECT_LT(kept(sure, floors, step_covariance()), 10) << "a ramp of 2.5 %, whose floors all seem level";
   EXPECT_EQ(kept(unsure, floors, step_covariance(0.05, 0.02)), 30);
+}
+
+/// A road that bends up: half a metre over 20 m.
+double gentle(double x) { return 0.00125 * x * x; }
+
+// A floor of half that is 4 mrad from the median of the latest ones, less than the odometry's drift there.
+TEST(LevelAgreement, FindsOverTheWayThatGroundSlopesGently) {
+  std::vector<Plane> flat, road;
+  for (int k = 0; k < 120; ++k) {
+    flat.push_back(level(0.0));
+    road.push_back(tangent([](double x) { return 0.5 * gentle(x); }, step_m * k));
+  }
+  LevelAgreement of_flat{{}}, of_road{{}}, of_latest{{.way_keyframes = 0}};
+  EXPECT_EQ(kept(of_flat, flat, step_covariance()), 120);
+  EXPECT_LT(kept(of_road, road, step_covariance()), 50);
+  EXPECT_EQ(kept(of_latest, road, step_covariance()), 120) << "seen over the latest keyframes it is level";
+}
+
+TEST(LevelAgreement, SaysOnceSinceWhenGroundSlopes) {
+  LevelAgreement agreement{{}};
+  std::vector<int> since;
+  for (int k = 0; k < 80; ++k) {
+    const Pose X_MR = Pose::from_xyz_yaw({step_m * k, 0.0, 0.5}, 0.0);
+    agreement.add_step(k == 0 ? Pose{} : Pose::from_xyz_yaw({step_m, 0.0, 0.0}, 0.0), step_covariance());
+    std::vector<PlaneObservation> planes = {see_floor(X_MR, 0.0)};
+    planes[0].plane_R = X_MR.inverse() * tangent(gentle, step_m * k);
+    agreement.drop_contradicted(planes);
+    if (agreement.sloping_since()) since.push_back(*agreement.sloping_since());
+  }
+  EXPECT_EQ(since, (std::vector<int>{0}));
+}
+
+TEST(LevelAgreement, AFloorOfAnotherStoreyIsNoSlope) {
+  std::vector<Plane> floors(40, level(0.0));
+  floors.insert(floors.end(), 40, level(3.0));
+  LevelAgreement agreement{{}};
+  EXPECT_EQ(kept(agreement, floors, step_covariance()), 80);
+}
+
+/// Largest error of height of a graph of keyframes along the gentle road, whose odometry makes none, m.
+double worst_height_m(bool release) {
+  WallLayer walls{{}};
+  Graph graph;
+  Pose X_MR0;
+  for (int k = 0; k < 30; ++k) {
+    const double x = step_m * k;
+    const Pose X_MR{exp_so3({0.0, -std::atan(0.0025 * x), 0.0}), {x, 0.0, gentle(x) + 0.5}};
+    graph.keyframes.push_back({k, k == 0 ? X_MR : graph.keyframes.back().X_MR * (X_MR0.inverse() * X_MR), X_MR, 0});
+    const Matrix6d information = step_covariance().inverse();
+    if (k > 0) graph.pose_factors.push_back({k - 1, k, X_MR0.inverse() * X_MR, information, false});
+    X_MR0 = X_MR;
+    PlaneObservation seen = see_floor(X_MR, 0.0);
+    seen.plane_R = X_MR.inverse() * tangent(gentle, x);
+    (void)walls.observe(graph, std::vector<PlaneObservation>{seen}, x);
+    (void)optimize(graph, 1, {});
+  }
+  EXPECT_EQ(graph.planes.size(), 1U) << "step by step the map is bent to one plane";
+  if (release) {
+    walls.release_floors(graph, 0);
+    (void)optimize(graph, 1, {});
+    EXPECT_EQ(walls.observe(graph, std::vector<PlaneObservation>{see_floor(X_MR0, gentle(X_MR0.t.x()))}, 0.0),
+              std::vector<int>{1});
+  }
+  double worst_m = 0.0;
+  for (const KeyframeVertex& k : graph.keyframes) worst_m = std::max(worst_m, std::abs(k.X_MR.t.z() - k.X_OR.t.z()));
+  return worst_m;
+}
+
+TEST(WallLayer, FloorsOfASlopeDoNotBendThePathOnceReleased) {
+  EXPECT_GT(worst_height_m(false), 0.2);
+  EXPECT_LT(worst_height_m(true), 0.002);
 }
 
 TEST(LevelAgreement, JudgesCeilingsApartFromFloors) {
