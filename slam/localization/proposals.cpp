@@ -18,11 +18,28 @@ bool lies_on(const WallObservation& wall, const WallLine& line, const Eigen::Vec
   return overlap >= config.overlap_min * (wall.s1 - wall.s0);
 }
 
-/// The pose from which wall u is line a and wall v is line b, where it lies in a room and both walls are visible.
-std::optional<Pose2> pose_at(const StoreyIndex& storey, const LocalizationScan& scan, const WallObservation& u, int a,
-                             const WallObservation& v, int b, const LikelihoodConfig& likelihood) {
-  const WallLine &line_a = storey.lines[static_cast<std::size_t>(a)],
-                 &line_b = storey.lines[static_cast<std::size_t>(b)];
+/// A wall of a storey or a row of planned furniture.
+struct Front {
+  const WallLine* line = nullptr;
+  int wall = -1;  ///< in StoreyIndex::lines, -1: a row
+};
+
+/// Those long enough for such a patch: walls, then rows.
+std::vector<Front> fronts_for(const WallObservation& patch, const StoreyIndex& storey, const LikelihoodConfig& config) {
+  const double least_m = config.overlap_min * (patch.s1 - patch.s0) - 2.0 * config.overlap_margin_m;
+  std::vector<Front> fronts;
+  for (const std::vector<WallLine>* lines : {&storey.lines, &storey.rows})
+    for (const WallLine& line : *lines)
+      if (line.length >= least_m)
+        fronts.push_back({&line, lines == &storey.lines ? static_cast<int>(&line - lines->data()) : -1});
+  return fronts;
+}
+
+/// The pose from which patch u is front a and patch v is front b, where it lies in a room and both are visible.
+std::optional<Pose2> pose_at(const StoreyIndex& storey, const LocalizationScan& scan, const WallObservation& u,
+                             const Front& a, const WallObservation& v, const Front& b,
+                             const LikelihoodConfig& likelihood) {
+  const WallLine &line_a = *a.line, &line_b = *b.line;
   Eigen::Matrix2d N;
   N << line_a.n.transpose(), line_b.n.transpose();
   const Eigen::Vector2d sensor_I = N.inverse() * Eigen::Vector2d(u.distance - line_a.d, v.distance - line_b.d);
@@ -30,7 +47,9 @@ std::optional<Pose2> pose_at(const StoreyIndex& storey, const LocalizationScan& 
   if (cell < 0 || !lies_on(u, line_a, sensor_I, likelihood) || !lies_on(v, line_b, sensor_I, likelihood))
     return std::nullopt;
   const std::vector<int>& visible = storey.visible[static_cast<std::size_t>(cell)];
-  const auto is_visible = [&](int i) { return std::binary_search(visible.begin(), visible.end(), i); };
+  const auto is_visible = [&](const Front& front) {
+    return front.wall < 0 || std::binary_search(visible.begin(), visible.end(), front.wall);
+  };
   if (!is_visible(a) || !is_visible(b)) return std::nullopt;
   const double yaw_a = line_a.azimuth - u.azimuth, yaw_b = line_b.azimuth - v.azimuth;
   Pose2 X_IH{{}, wrap_angle(yaw_a + 0.5 * wrap_angle(yaw_b - yaw_a))};
@@ -59,30 +78,35 @@ std::vector<StoreyPose> non_max_suppression(std::vector<ScoredPose> poses, int c
 std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior, const LocalizationScan& scan,
                                       int beam_stride, const LikelihoodConfig& likelihood,
                                       const ProposalConfig& config) {
-  std::vector<ScoredPose> scored;
+  std::vector<ScoredPose> by_walls, by_rows;
   const std::size_t walls = std::min(scan.walls.size(), static_cast<std::size_t>(config.walls));
   for (std::size_t s = 0; s < index.storeys.size(); ++s) {
     const StoreyIndex& storey = index.storeys[s];
-    const int lines = static_cast<int>(storey.lines.size());
+    std::vector<std::vector<Front>> fronts;
+    for (std::size_t i = 0; i < walls; ++i) fronts.push_back(fronts_for(scan.walls[i], storey, likelihood));
     for (std::size_t i = 0; i < walls; ++i)
       for (std::size_t j = i + 1; j < walls; ++j) {
         const WallObservation &u = scan.walls[i], &v = scan.walls[j];
         const double corner = wrap_angle(v.azimuth - u.azimuth);
         if (std::abs(std::sin(corner)) < config.corner_min_sin) continue;
-        for (int a = 0; a < lines; ++a) {
-          const double azimuth = storey.lines[static_cast<std::size_t>(a)].azimuth;
+        for (const Front& a : fronts[i]) {
+          const double azimuth = a.line->azimuth;
           if (prior.yaw_I && std::abs(wrap_angle(azimuth - u.azimuth - *prior.yaw_I)) > config.yaw_tolerance) continue;
-          for (int b = 0; b < lines; ++b) {
-            const double turn = storey.lines[static_cast<std::size_t>(b)].azimuth - azimuth;
+          for (const Front& b : fronts[j]) {
+            const double turn = b.line->azimuth - azimuth;
             if (std::abs(wrap_angle(turn - corner)) > config.angle_tolerance) continue;
             if (const auto X_IH = pose_at(storey, scan, u, a, v, b, likelihood))
-              scored.push_back({{static_cast<int>(s), *X_IH, true},
-                                beam_log_likelihood(storey, *X_IH, scan, beam_stride, likelihood)});
+              (a.wall < 0 || b.wall < 0 ? by_rows : by_walls)
+                  .push_back({{static_cast<int>(s), *X_IH, true},
+                              beam_log_likelihood(storey, *X_IH, scan, beam_stride, likelihood)});
           }
         }
       }
   }
-  return non_max_suppression(std::move(scored), config.count, config.gap_m, config.gap_rad);
+  std::vector<StoreyPose> poses = non_max_suppression(std::move(by_walls), config.count, config.gap_m, config.gap_rad);
+  for (const StoreyPose& pose : non_max_suppression(std::move(by_rows), config.count, config.gap_m, config.gap_rad))
+    poses.push_back(pose);
+  return poses;
 }
 
 }  // namespace plumbline::slam

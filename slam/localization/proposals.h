@@ -48,7 +48,8 @@ struct ScoredPose {
                                                           double gap_rad);
 
 /// Every pose from which two of the observed walls are two walls of the plan, best first by the beams. Two walls that
-/// are not parallel fix a pose, so that no aliased pose is missed, which a random sample might do.
+/// are not parallel fix a pose, so that no aliased pose is missed, which a random sample might do. Then those by rows
+/// of planned furniture: between shelves a scan may show hardly any wall.
 [[nodiscard]] std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior,
                                                     const LocalizationScan& scan, int beam_stride,
                                                     const LikelihoodConfig& likelihood, const ProposalConfig& config);

@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "bim/errors.h"
+#include "slam/plan_map/furniture_rows.h"
 #include "slam/plan_map/plan_mesh.h"
 #include "slam/plan_map/pose2.h"
+#include "slam/plan_map/upright.h"
 #include "slam/plan_map/wall_lines.h"
 
 namespace plumbline::slam {
@@ -20,9 +22,6 @@ namespace {
 
 // Faces that reach into a storey by less belong to the one above or below.
 constexpr double sliver_m = 0.05;
-
-double snap(double value) { return std::round(value * 1e6) * 1e-6; }
-Eigen::Vector2d snap(const Eigen::Vector2d& p) { return {snap(p.x()), snap(p.y())}; }
 
 /// The room that anchors frame I: smallest name, then lowest index.
 const bim::PlanRoom& anchor_room(const bim::Plan& plan) {
@@ -52,20 +51,6 @@ std::vector<int> storeys_in_use(const bim::Plan& plan, const std::optional<std::
     throw InputError({}, name ? "storey '" + *name + "' is not in the plan or has no rooms to start in"
                               : std::string("no storey of the plan has rooms to start in"));
   return storeys;
-}
-
-/// The upright rectangle over p0 to p1 (in W) with free space on its left.
-PlanSegment upright(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1, double z0, double z1, const Pose2& X_IW,
-                    double base_z) {
-  PlanSegment segment;
-  segment.a = snap(X_IW * p0);
-  const Eigen::Vector2d b = snap(X_IW * p1);
-  segment.length = (b - segment.a).norm();
-  segment.e = (b - segment.a) / segment.length;
-  segment.n = {-segment.e.y(), segment.e.x()};
-  segment.z0 = snap(z0 - base_z);
-  segment.z1 = snap(z1 - base_z);
-  return segment;
 }
 
 PlanSegment segment_in_I(const bim::PlanFace& face, int index, const Pose2& X_IW, double base_z) {
@@ -114,18 +99,9 @@ std::vector<PlanSegment> storey_segments(const bim::Plan& plan, const Pose& X_WI
   for (const bim::PlanSolid& solid : plan.solids) {
     if (solid.may_have_moved && !furniture) continue;
     const int element = elements.next();
-    for (std::size_t i = 0; i < solid.outline.size(); ++i) {
-      // Free space is on the right of a counter-clockwise outline.
-      const Eigen::Vector2d &p1 = solid.outline[i], &p0 = solid.outline[(i + 1) % solid.outline.size()];
-      if ((p1 - p0).norm() < 1e-3) continue;
-      add(upright(p0, p1, solid.z0, solid.z1, X_IW, X_WI.t.z()), element);
-    }
+    for (PlanSegment& side : sides_of(solid, X_IW, X_WI.t.z())) add(std::move(side), element);
   }
-  const auto key = [](const PlanSegment& s) {
-    return std::make_tuple(s.a.x(), s.a.y(), s.e.x(), s.e.y(), s.length, s.z0, s.z1, s.plan_face < 0);
-  };
-  std::stable_sort(segments.begin(), segments.end(),
-                   [&](const PlanSegment& a, const PlanSegment& b) { return key(a) < key(b); });
+  sort_by_geometry(segments);
   number_elements(segments);
   return segments;
 }
@@ -217,6 +193,7 @@ StoreyIndex make_storey(const bim::Plan& plan_W, int plan_storey, const Pose& X_
   storey.grid = SegmentGrid(storey.segments, config.cell_m);
   storey.sectors = FaceSectors(storey.segments, storey.grid.ray_candidates(), storey.grid.cells());
   storey.visible = visible_lines(storey, config);
+  if (!config.furniture) storey.rows = furniture_rows(plan_W, X_WI, storey.floor_z, storey.ceiling_z, config);
   storey.structure = structure ? std::move(structure) : std::make_shared<const Structure>(plan_mesh(storey));
   storey.furniture = std::move(furniture);
   return storey;

@@ -26,6 +26,8 @@ struct PlanIndexConfig {
   int visibility_rays = 72;
   double visibility_range_m = 25.0;
   double body_height_m = 0.4;
+  double row_min_m = 3.0;
+  double row_gap_m = 0.3;
   bool furniture = true;
 
   template <class V>
@@ -42,6 +44,11 @@ struct PlanIndexConfig {
     v("visibility_range_m", visibility_range_m, Field{.doc = "largest range of these rays", .min = 0});
     v("body_height_m", body_height_m,
       Field{.doc = "height of the robot's trunk, which must fit through doors", .min = 0});
+    // Assumed: longer than a wardrobe or a kitchen, which leave walls to be seen.
+    v("row_min_m", row_min_m,
+      Field{.doc = "least length of a row of planned furniture whose front proposes poses as a wall does", .min = 0});
+    // Assumed: less than a partition with furniture on both sides.
+    v("row_gap_m", row_gap_m, Field{.doc = "largest gap between pieces of one row", .min = 0});
     v("furniture", furniture, Field{.doc = "whether planned furniture counts as part of the plan"});
   }
 };
@@ -73,6 +80,7 @@ struct StoreyIndex {
   std::optional<bim::WalkedFloors> floors;  ///< in I, where they do not all lie at floor_z
   std::vector<PlanSegment> segments;        ///< wall faces, in an order that depends on geometry alone
   std::vector<WallLine> lines;
+  std::vector<WallLine> rows;  ///< fronts of planned furniture that may look like walls, where it is no part of `lines`
   std::vector<LocalRoom> rooms;
   SegmentGrid grid;                            ///< over segments
   FaceSectors sectors;                         ///< by cell of the grid

@@ -7,6 +7,7 @@
 
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
+#include "tests/slam/plan_map/planned_furniture.h"
 
 namespace plumbline::slam {
 namespace {
@@ -40,6 +41,26 @@ TEST(Proposals, HoldEveryPoseThatLooksTheSame) {
   ASSERT_GE(poses.size(), 2U);
   EXPECT_TRUE(holds({poses[0], poses[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({1.4, 1.3, 0}, 0.4))));
   EXPECT_TRUE(holds({poses[0], poses[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({10.4, 2.3, 0}, 0.4))));
+}
+
+// Between two rows of shelves a scan shows their fronts and the ends of the hall; one front was taken for a wall.
+TEST(Proposals, HoldThePoseBetweenRowsOfPlannedShelves) {
+  const synthetic::House hall = synthetic::one_room(20.0, 12.0);
+  synthetic::House built = hall;
+  bim::Plan plan = synthetic::plan_of(hall);
+  for (const double y : {4.0, 7.0}) {
+    built.boxes.push_back({{3.0, y, 0.0}, {17.0, y + 0.8, 2.7}});
+    synthetic::add_furniture(plan, {3.0, y, 0.0}, {17.0, y + 0.8, 2.7});
+  }
+  PlanIndexConfig config;
+  config.furniture = false;
+  const PlanIndex index = make_plan_index(plan, "ground", config), walls = make_plan_index(plan, "ground", {});
+  for (const double x : {6.0, 9.0, 14.0}) {
+    const Pose X_WR = Pose::from_xyz_yaw({x, 5.7, 0.46}, 0.2);
+    const LocalizationScan scan = synthetic::house_scan(built, X_WR, Pose{}).scan;
+    EXPECT_TRUE(holds(propose_poses(index, {}, scan, 6, {}, {}), heading(index.X_WI.inverse() * X_WR))) << x;
+    EXPECT_FALSE(holds(propose_poses(walls, {}, scan, 6, {}, {}), heading(index.X_WI.inverse() * X_WR))) << x;
+  }
 }
 
 }  // namespace
