@@ -109,6 +109,8 @@ class OdometryHealth {
   [[nodiscard]] bool assess(const Registration& registration, const Pose& step, const ExpectedStep& expected);
   /// That median, in [0, 1]; 1 before enough scans were accepted.
   [[nodiscard]] double usual_matched() const;
+  /// Median residual of the same scans, m; 0 before any was accepted.
+  [[nodiscard]] double usual_residual() const;
   /// Whether scans, matched as is usual, measure a motion by themselves. Where most of what they see contradicts the
   /// map, as among vehicles that move along or rows of leaves, a pose that fits the rest may be any.
   [[nodiscard]] bool measures() const { return usual_matched() >= config_.measuring_share; }
@@ -136,8 +138,7 @@ class OdometryHealth {
   void restart();
 
  private:
-  [[nodiscard]] double usual() const;           ///< 0 before any scan matched
-  [[nodiscard]] double usual_residual() const;  ///< m; 0 before any scan matched
+  [[nodiscard]] double usual() const;  ///< 0 before any scan matched
 
   HealthConfig config_;
   std::deque<double> matched_;    ///< by accepted scans

@@ -10,6 +10,7 @@
 
 #include "bim/errors.h"
 #include "slam/odometry/continuous_odometry.h"
+#include "slam/odometry/doubtful_step.h"
 #include "slam/odometry/motion_prediction.h"
 #include "slam/odometry/slipping.h"
 #include "slam/odometry/unmeasured_way.h"
@@ -199,8 +200,11 @@ class GuardedScanMatcher final : public LidarOdometry {
     constexpr int most_steps = 3;  // of the one before; in a longer gap the scene may have become another
     const bool surprises_after_gap = dt / most_steps > dt_ && !OdometryHealth::is_expected_step(step, expected);
     const bool doubtful = surprises_after_gap || health_.is_doubtful(result, step, expected);
-    if (had_map_ && result.accepted && !sample.valid && !continues && doubtful)
-      unmeasured_.add_doubtful(surprise_m(step, sample.step));
+    if (had_map_ && result.accepted && !sample.valid && !continues && doubtful) {
+      begin_doubt(step, sample.step, surprises_after_gap);
+    } else if (doubt_) {
+      settle_doubt(result, result.accepted && OdometryHealth::is_expected_step(step, expected));
+    }
     if (!result.accepted) {
       result.X_MR = frozen ? X_MR_ : X_MR_ * sample.step;
       result.information = sample.valid ? dead_reckoning_information(config_, sample.step.t.norm())
@@ -238,6 +242,29 @@ class GuardedScanMatcher final : public LidarOdometry {
     result.lost = health_.lost() || unmeasured_.lost();
     result.displaced = unmeasured_.displaced();
     return result;
+  }
+
+  /// Of a scan that was accepted, but may be an alias of the place.
+  void begin_doubt(const Pose& step, const Pose& expected, bool after_gap) {
+    const bool doubted = unmeasured_.is_doubtful();
+    unmeasured_.add_doubtful(surprise_m(step, expected));
+    if constexpr (std::is_same_v<Matcher, VgicpOdometry>) {
+      const DoubtfulStep::Scan scan{
+          X_MR_, step, expected, health_.usual_matched(), health_.usual_residual(), config_.health.sure_share};
+      if (after_gap)
+        doubt_.reset();
+      else if (doubted && doubt_)
+        doubt_->add_doubtful(scan);
+      else if (!doubted && unmeasured_.is_doubtful())
+        doubt_.emplace(matcher_, scan);
+    }
+  }
+  void settle_doubt(const Registration& result, bool fits) {
+    if constexpr (std::is_same_v<Matcher, VgicpOdometry>) {
+      doubt_->add(matcher_, result.X_MR, fits);
+      if (doubt_->is_settled()) unmeasured_.settle_doubt();
+    }
+    if (!unmeasured_.is_doubtful()) doubt_.reset();
   }
 
   void add_motion(const Registration& result, const Pose& step, Nanoseconds stamp) {
@@ -295,6 +322,7 @@ class GuardedScanMatcher final : public LidarOdometry {
   Matcher matcher_;
   OdometryHealth health_;
   UnmeasuredWay unmeasured_;
+  std::optional<DoubtfulStep> doubt_;  ///< while unmeasured_ is doubtful, where later scans may settle it
   SlipWatch slip_;
   ContinuousOdometry increments_;
   bool started_ = false;  ///< a scan came ...
@@ -345,28 +373,6 @@ class DeadReckoning final : public LidarOdometry {
 };
 
 }  // namespace
-
-Matrix6d dead_reckoning_information(const LidarOdometryConfig& config, double way_m) {
-  constexpr double least_step_m = 1e-3;  // standing still is not known for certain
-  const double way = std::max(way_m, least_step_m);
-  Matrix6d information = Matrix6d::Zero();
-  information.diagonal().head<3>().setConstant(1.0 /
-                                               (config.dead_reckoning_sigma_m * config.dead_reckoning_sigma_m * way));
-  information.diagonal().tail<3>().setConstant(
-      1.0 / (config.dead_reckoning_sigma_rad * config.dead_reckoning_sigma_rad * way));
-  return information;
-}
-
-Matrix6d unknown_information(const HealthConfig& limits, Nanoseconds dt, double speed_mps) {
-  constexpr double least_dt_s = 0.01;
-  const double dt_s = std::max(seconds(dt), least_dt_s);
-  const double way_m = limits.max_deviation_m + speed_mps * dt_s + limits.max_acceleration_mps2 * dt_s * dt_s;
-  const double turn_rad = limits.max_deviation_rad + limits.max_turn_acceleration_radps2 * dt_s * dt_s;
-  Matrix6d information = Matrix6d::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (way_m * way_m));
-  information.diagonal().tail<3>().setConstant(1.0 / (turn_rad * turn_rad));
-  return information;
-}
 
 std::unique_ptr<LidarOdometry> make_lidar_odometry(const LidarOdometryConfig& config) {
   switch (config.kind) {

@@ -38,7 +38,8 @@ void UnmeasuredWay::add_frozen(Nanoseconds dt, double speed_mps) {
 }
 
 void UnmeasuredWay::begin_map() {
-  map_m_ += open_m();
+  map_m_ = std::max(map_m_, doubt_m_) + open_m();
+  doubt_m_ = 0.0;
   open_s_ = 0.0;
   frozen_m_ = 0.0;
 }
@@ -47,6 +48,7 @@ void UnmeasuredWay::measure_from(const UnmeasuredWay& then) {
   open_s_ = std::min(open_s_, then.open_s_);
   frozen_m_ = std::min(frozen_m_, then.frozen_m_);
   map_m_ = std::min(map_m_, then.map_m_);
+  doubt_m_ = std::min(doubt_m_, then.doubt_m_);
 }
 
 // A speed that random accelerations change, integrated.

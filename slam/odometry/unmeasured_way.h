@@ -30,19 +30,23 @@ class UnmeasuredWay {
   void add_frozen(Nanoseconds dt, double speed_mps);
   /// A scan that fits, but so far from what was expected, and so much less than usual, that it may fit elsewhere as
   /// well: by this way. What is mapped from here on goes with it.
-  void add_doubtful(double way_m) { map_m_ = std::max(map_m_, way_m); }
+  void add_doubtful(double way_m) { doubt_m_ = std::max(doubt_m_, way_m); }
+  /// Later scans show that such scans were in their place.
+  void settle_doubt() { doubt_m_ = 0.0; }
   /// A new map begins here.
   void begin_map();
   /// A scan that is placed against an earlier one, when this was `then`: it is known as well as that one was.
   void measure_from(const UnmeasuredWay& then);
   /// Something outside, as a loop closure, says where the map is.
-  void locate_map() { map_m_ = 0.0; }
+  void locate_map() { map_m_ = doubt_m_ = 0.0; }
 
   /// Of the way gone unmeasured that may still be made up for.
   [[nodiscard]] double open_m() const;
   [[nodiscard]] bool lost() const { return open_m() > limit_m_; }
   /// Whether the place of the map itself is not known.
-  [[nodiscard]] bool displaced() const { return map_m_ > limit_m_; }
+  [[nodiscard]] bool displaced() const { return map_m_ > limit_m_ || is_doubtful(); }
+  /// Whether that is because of doubtful scans on the present map.
+  [[nodiscard]] bool is_doubtful() const { return doubt_m_ > limit_m_; }
 
  private:
   /// What a robot or person accelerates by in passing: at least, since one that goes evenly may stop, and at most;
@@ -54,6 +58,7 @@ class UnmeasuredWay {
   double open_s_ = 0.0;    ///< time without a measurement that was not yet made up for
   double frozen_m_ = 0.0;  ///< way gone while the robot was believed to stand
   double map_m_ = 0.0;
+  double doubt_m_ = 0.0;  ///< by which doubtful scans on the present map may be off
 };
 
 /// A step but for what nothing measured of it, which is as expected: a match that slid there would go on sliding.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "slam/registration/coarse_search.h"
 #include "slam/registration/far_surfaces.h"
 #include "slam/registration/support.h"
 #include "slam/registration/sweep_twist.h"
@@ -39,29 +39,6 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   kept.reserve(most);
   for (std::size_t k = 0; k < most; ++k) kept.push_back(all[k * all.size() / most]);
   return kept;
-}
-
-/// For a level of the map whose voxels are this large: surfaces bend within a voxel, and the start is off by some of
-/// it.
-RegistrationConfig coarser(RegistrationConfig config, double voxel_m) {
-  config.sigma_tangent_m = voxel_m;
-  config.sigma_normal_m = std::max(config.sigma_normal_m, 0.2 * voxel_m);
-  config.min_normal_agreement = std::min(config.min_normal_agreement, 0.7);
-  config.max_iterations *= 2;
-  config.translation_epsilon_m = 0.02 * voxel_m;
-  config.rotation_epsilon_rad = 0.002 * voxel_m;
-  config.least_eigenvalue = 0.0;
-  return config;
-}
-
-constexpr double turn_rad = 15.0 * std::numbers::pi / 180.0;  ///< from start to start, and what one start reaches
-
-/// The same place, turned by up to 60 degrees either way.
-std::vector<Pose> yaw_fan(const Pose& X_MR) {
-  constexpr int turns = 4;
-  std::vector<Pose> fan;
-  for (int k = -turns; k <= turns; ++k) fan.push_back(X_MR * Pose::from_xyz_yaw(Eigen::Vector3d::Zero(), k * turn_rad));
-  return fan;
 }
 
 /// A pose that differs from the expected one where surfaces leave it open. Where the robot comes to what it has not
@@ -133,7 +110,7 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
 // Within the reach of the coarsest map from one another.
 bool VgicpOdometry::is_near(const Pose& a, const Pose& b) const {
   const Pose difference = a.inverse() * b;
-  return difference.t.norm() < 0.5 * maps_.back().voxel_m() && log_so3(difference.q).norm() < turn_rad;
+  return difference.t.norm() < 0.5 * maps_.back().voxel_m() && log_so3(difference.q).norm() < yaw_fan_turn_rad;
 }
 
 VgicpOdometry::ScanFeatures VgicpOdometry::features_of(const DeskewedScan& scan) const {
@@ -301,18 +278,12 @@ Registration VgicpOdometry::align_known(const Pose& expected, std::span<const Ve
 }
 
 Registration VgicpOdometry::align_coarsely(std::span<const Pose> starts) const {
-  Registration best;
-  best.X_MR = starts.front();
-  best.matched = -1.0;
-  for (const Pose& start : starts) {
-    Registration found;
-    found.X_MR = start;
-    for (std::size_t level = maps_.size(); level-- > 1;)
-      found = align(scan_.subsample, maps_[level], found.X_MR, std::nullopt,
-                    coarser(registration_, maps_[level].voxel_m()));
-    if (found.matched > best.matched) best = found;
-  }
-  return best;
+  return slam::align_coarsely(scan_.subsample, maps_, registration_, starts);
+}
+
+Registration VgicpOdometry::place_in(std::span<const SurfelMap> maps, const Pose& start) const {
+  const Registration near = slam::align_coarsely(scan_.subsample, maps, registration_, std::span(&start, 1));
+  return align(scan_.registered, maps.front(), near.X_MR, std::nullopt, scan_.fine);
 }
 
 void VgicpOdometry::commit(const Pose& X_MR, bool mapped) {

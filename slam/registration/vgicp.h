@@ -98,6 +98,12 @@ class VgicpOdometry {
   void commit(const Pose& X_MR, bool mapped);
   /// Whether there is a map to match against.
   [[nodiscard]] bool ready() const { return !keyframes_.empty(); }
+  /// The local map, finest voxels first, without a scan that was not yet committed.
+  [[nodiscard]] const std::vector<SurfelMap>& maps() const { return maps_; }
+  /// The last matched scan by its surfels alone against such a map, from `start`.
+  [[nodiscard]] Registration place_in(std::span<const SurfelMap> maps, const Pose& start) const;
+  /// Whether poses are within the reach of the coarsest map from one another.
+  [[nodiscard]] bool is_near(const Pose& a, const Pose& b) const;
   /// Drops the map.
   void reset_map();
   /// True when the last scan entered the local map.
@@ -158,7 +164,6 @@ class VgicpOdometry {
   void correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior, const OdometrySample& odometry,
                      Registration& result);
   [[nodiscard]] ScanFeatures features_of(const DeskewedScan& scan) const;
-  [[nodiscard]] bool is_near(const Pose& a, const Pose& b) const;
   /// The start that leads to the most matches in coarse maps, and where it leads.
   [[nodiscard]] Registration align_coarsely(std::span<const Pose> starts) const;
   void insert(const Pose& X_MR);

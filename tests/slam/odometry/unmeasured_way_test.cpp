@@ -81,6 +81,19 @@ TEST(UnmeasuredWay, AnAliasIsNotMadeUpFor) {
   EXPECT_FALSE(way.displaced());
 }
 
+TEST(UnmeasuredWay, ADoubtIsSettledOnTheMapThatItBeganOn) {
+  UnmeasuredWay way(limit_m);
+  way.add_doubtful(1.1 * limit_m);
+  EXPECT_TRUE(way.is_doubtful());
+  way.settle_doubt();
+  EXPECT_FALSE(way.displaced());
+  way.add_doubtful(1.1 * limit_m);
+  way.begin_map();
+  EXPECT_FALSE(way.is_doubtful());
+  way.settle_doubt();
+  EXPECT_TRUE(way.displaced()) << "the map of before is gone";
+}
+
 TEST(UnmeasuredWay, ANewMapDoesNotKnowWhereItIs) {
   UnmeasuredWay way(limit_m);
   for (int k = 0; k < 30; ++k) way.add_frozen(period(10.0), 1.0);
