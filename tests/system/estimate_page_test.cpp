@@ -122,9 +122,9 @@ TEST_F(EstimatePages, OfAlteredFilesAreRefusedOrNameThem) {
   EXPECT_TRUE(read_file(dir + "/report.html") == before);
   const Outcome taken = plumbline({"report", dir, "--unchecked"});
   EXPECT_EQ(taken.code, 0) << taken.err;
-  EXPECT_NE(
-      read_file(dir + "/report.html").find("this estimate were altered or added after it was written: s_graphs_plus.tum"),
-      std::string::npos);
+  EXPECT_NE(read_file(dir + "/report.html")
+                .find("this estimate were altered or added after it was written: s_graphs_plus.tum"),
+            std::string::npos);
   EXPECT_EQ(plumbline({"report", dir}).code, 2) << "what was altered stays so";
 }
 

@@ -133,8 +133,7 @@ std::string reference_sentence(const EstimateFiles& files) {
   const auto error = number_of(causal, "ate_aligned_rmse_m");
   if (!error) return "";
   text = "By the reference, aligned: position error " + metres(*error) + " rms";
-  if (const auto over = number_of(causal, "rpe_1m_rmse_m"); over)
-    text += ", " + metres(*over) + " over each metre";
+  if (const auto over = number_of(causal, "rpe_1m_rmse_m"); over) text += ", " + metres(*over) + " over each metre";
   const std::string of_place = files.method.localization
                                    ? " The reference is aligned to the estimate and cannot show a wrong place; one in "
                                      "the plan's frame, given with frame=W, can."

@@ -161,7 +161,8 @@ TEST(EstimatePage, NamesPausesAndAlteredFiles) {
   const std::string page = render_estimate(made);
   EXPECT_NE(page.find("1 pause, the longest after 4.9 s: no scan for 7.1 s."), std::string::npos);
   EXPECT_NE(page.find("Files of this estimate were altered or added after it was written: m.tum"), std::string::npos);
-  EXPECT_NE(page.find("Files of the recording were altered or added after it was written: lidar.pcap"), std::string::npos);
+  EXPECT_NE(page.find("Files of the recording were altered or added after it was written: lidar.pcap"),
+            std::string::npos);
 }
 
 TEST(EstimatePage, OfOneScanAndOfNoneCanBeMade) {
