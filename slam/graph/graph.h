@@ -25,8 +25,9 @@ struct PlaneVertex {
   Plane plane_M;
   PlaneKind kind = PlaneKind::wall;
   int storey = 0;
-  int merged_into = -1;  ///< id of the plane that took over its observations; -1: alive
-  bool fixed = false;    ///< it is where it is; optimize() does not move it
+  int merged_into = -1;   ///< id of the plane that took over its observations; -1: alive
+  bool fixed = false;     ///< it is where it is; optimize() does not move it
+  bool released = false;  ///< a floor of ground that slopes: later floors are other planes
 };
 
 /// Layer 3: centre of a four-wall room, of a two-wall stretch or of a polygon's corners.

@@ -35,7 +35,8 @@ std::vector<Front> fronts_for(const WallObservation& patch, const StoreyIndex& s
   return fronts;
 }
 
-/// The pose from which patch u is front a and patch v is front b, where it lies in a room and both are visible.
+/// The pose from which patch u is front a and patch v is front b, where it lies in a room and walls among them are
+/// visible.
 std::optional<Pose2> pose_at(const StoreyIndex& storey, const LocalizationScan& scan, const WallObservation& u,
                              const Front& a, const WallObservation& v, const Front& b,
                              const LikelihoodConfig& likelihood) {

@@ -26,7 +26,8 @@ struct ProposalConfig {
     v("angle_tolerance", angle_tolerance,
       Field{.doc = "largest difference between the observed and the planned corner angle", .unit = "rad", .min = 0});
     v("yaw_tolerance", yaw_tolerance, Field{.doc = "largest difference from the prior yaw", .unit = "rad", .min = 0});
-    v("count", count, Field{.doc = "most poses that are proposed", .min = 1, .max = 10000});
+    v("count", count,
+      Field{.doc = "most poses that are proposed by walls, and by rows of furniture", .min = 1, .max = 10000});
     v("gap_m", gap_m, Field{.doc = "least distance between two proposed poses", .min = 0});
     v("gap_rad", gap_rad, Field{.doc = "or least angle between two proposed poses", .min = 0});
   }

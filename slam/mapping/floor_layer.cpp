@@ -35,6 +35,11 @@ std::optional<WidePair> widest_pair(std::span<const PlaneNode> walls, const std:
   return best;
 }
 
+bool has_released_floor(const Graph& graph, int storey) {
+  return std::any_of(graph.planes.begin(), graph.planes.end(),
+                     [&](const PlaneVertex& plane) { return plane.released && plane.storey == storey; });
+}
+
 /// The storey's floor vertex, made on first use.
 int floor_vertex_of(Graph& graph, int storey, const Eigen::Vector2d& center_M) {
   for (std::size_t id = 0; id < graph.floors.size(); ++id)
@@ -52,7 +57,7 @@ double height_at(const Plane& plane, const Eigen::Vector2d& p) {
 int floor_plane_of(const Graph& graph, int storey) {
   for (std::size_t id = 0; id < graph.planes.size(); ++id)
     if (graph.planes[id].kind == PlaneKind::floor && graph.planes[id].storey == storey &&
-        graph.planes[id].merged_into < 0)
+        graph.planes[id].merged_into < 0 && !graph.planes[id].released)
       return static_cast<int>(id);
   return -1;
 }
@@ -63,6 +68,8 @@ int storey_of(const Graph& graph, const Pose& X_MR, std::span<const PlaneObserva
   const auto floor = std::find_if(seen.begin(), seen.end(),
                                   [](const PlaneObservation& o) { return !o.vertical && o.plane_R.n.z() > 0.0; });
   if (floor == seen.end()) return former;
+  // On ground that slopes no height is a storey's.
+  if (has_released_floor(graph, former) && floor_plane_of(graph, former) < 0) return former;
   const Eigen::Vector2d here = X_MR.t.head<2>();
   const double height = height_at(X_MR * floor->plane_R, here);
   if (std::abs(X_MR.t.z() - height - config.robot_height_m) > config.underfoot_m) return former;

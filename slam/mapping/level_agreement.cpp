@@ -68,6 +68,7 @@ std::vector<double> LevelAgreement::chi2_to_latest(const PlaneObservation& level
 }
 
 bool LevelAgreement::contradicts_way(const PlaneObservation& floor) const {
+  if (config_.way_keyframes == 0) return false;
   // Twice the odometry's drift: where it is farther off than that, it is another storey's.
   constexpr double sigmas = 2.0;
   std::vector<double> chi2s;

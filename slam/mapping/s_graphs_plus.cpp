@@ -225,7 +225,7 @@ void SGraphsPlus::add_keyframe_vertex(Nanoseconds stamp, const Registration& odo
   level_agreement_.add_step(step, information.llt().solve(Matrix6d::Identity()));
   level_agreement_.drop_contradicted(seen);
   if (const std::optional<int> first = level_agreement_.sloping_since()) {
-    walls_.release_floors(graph_, *first);
+    WallLayer::release_floors(graph_, last.storey, *first);
     global_solve_requested_ = global_solve_urgent_ = true;
   }
   drop_tilted_planes(seen, X_MR, config_.floors);

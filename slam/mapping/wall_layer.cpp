@@ -123,7 +123,7 @@ std::vector<int> WallLayer::match(const Graph& graph, std::span<const PlaneObser
   for (std::size_t k = 0; k < seen.size(); ++k)
     for (const PlaneNode& node : known) {
       const PlaneVertex& plane = graph.planes[static_cast<std::size_t>(node.id)];
-      if (plane.kind == PlaneKind::floor && static_cast<std::size_t>(node.id) < released_) continue;
+      if (plane.released) continue;
       if (plane.merged_into >= 0 || plane.kind != kind_of(seen[k]) || plane.storey != storey) continue;
       const double normalized_mahalanobis2 = as_printed ? paper_normalized_distance2(graph, node, seen[k])
                                                         : this->normalized_mahalanobis2(graph, node, seen[k], walked_m);
@@ -143,15 +143,16 @@ std::vector<int> WallLayer::match(const Graph& graph, std::span<const PlaneObser
   return ids;
 }
 
-void WallLayer::release_floors(Graph& graph, int first) {
+void WallLayer::release_floors(Graph& graph, int storey, int first) {
   std::vector<bool> found(graph.planes.size(), false);
   for (PlaneFactor& factor : graph.plane_factors) {
     const auto id = static_cast<std::size_t>(factor.plane);
-    if (graph.planes[id].kind != PlaneKind::floor) continue;
+    PlaneVertex& plane = graph.planes[id];
+    if (plane.kind != PlaneKind::floor || plane.storey != storey) continue;
+    if (factor.keyframe >= first) plane.released = true;
     if (found[id] && factor.keyframe >= first) factor.information *= released_weight;
     found[id] = true;
   }
-  released_ = graph.planes.size();
 }
 
 void WallLayer::record_separations(std::span<const PlaneObservation> seen, std::span<const int> ids) {

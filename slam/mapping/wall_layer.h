@@ -125,9 +125,9 @@ class WallLayer {
   /// distance walked so far. Returns the plane ids.
   std::vector<int> observe(Graph& graph, std::span<const PlaneObservation> seen, double walked_m);
 
-  /// The floors seen from keyframe `first` on are no common plane: their factors weigh nothing but for the first of
-  /// each plane, which then moves nothing, and later floors are other planes. Solve the whole graph next.
-  void release_floors(Graph& graph, int first);
+  /// The floors of a storey seen from keyframe `first` on are no common plane: their factors weigh nothing but for the
+  /// first of each plane, which then moves nothing, and later floors are other planes. Solve the storey next.
+  static void release_floors(Graph& graph, int storey, int first);
 
   /// Every plane vertex with the union of its observations' extents; index = id. Merged planes have 0 observations.
   [[nodiscard]] std::vector<PlaneNode> extents(const Graph& graph) const;
@@ -188,7 +188,6 @@ class WallLayer {
   std::vector<double> last_seen_m_;     ///< the same when it was last seen
   std::map<std::pair<int, int>, int> separation_votes_;  ///< of planes, lower id first: scans that showed them as two
                                                          ///< faces, less those that showed them as one
-  std::size_t released_ = 0;                             ///< floors of lower ids are not seen again
   std::set<std::pair<int, int>> far_separations_;  ///< the same for planes too far apart to be duplicates by themselves
 };
 

@@ -22,13 +22,17 @@ void DoubtfulStep::add_doubtful(const Scan& scan) {
 }
 
 void DoubtfulStep::add(const VgicpOdometry& matcher, const Pose& X_MR, bool expected) {
-  if (scans_.size() > most_doubts) return;
+  if (!expected || scans_.size() > most_doubts) {
+    confirmed_ = 0;
+    X_MR_.reset();
+    return;
+  }
   const Registration here = matcher.place_in(before_, X_MR);
   // An alias that fits one view fits the same view again.
   constexpr double new_view_m = 0.3, new_view_rad = 0.35;  // both assumed
   const Pose way = X_MR_ ? X_MR_->inverse() * X_MR : Pose{};
   const bool seen = X_MR_ && way.t.norm() < new_view_m && log_so3(way.q).norm() < new_view_rad;
-  if (!expected || !fits(here, X_MR) || (!seen && fits_elsewhere(matcher, here, X_MR))) {
+  if (!fits(here, X_MR) || (!seen && fits_elsewhere(matcher, here, X_MR))) {
     confirmed_ = 0;
     X_MR_.reset();
   } else if (!seen) {

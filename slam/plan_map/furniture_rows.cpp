@@ -14,8 +14,8 @@ namespace plumbline::slam {
 
 namespace {
 
-/// An element as the upright prism around it.
-bim::PlanSolid hull_of(const bim::BuildingMesh& mesh, const bim::MeshElement& element) {
+/// An element as the upright prism around it; without an outline where it reaches into no height from z0 to z1.
+bim::PlanSolid hull_of(const bim::BuildingMesh& mesh, const bim::MeshElement& element, double z0, double z1) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   bim::PlanSolid hull{element.id, element.storey, {}, infinite, -infinite, true};
   for (int i = element.first_triangle; i < element.first_triangle + element.triangle_count; ++i)
@@ -25,6 +25,7 @@ bim::PlanSolid hull_of(const bim::BuildingMesh& mesh, const bim::MeshElement& el
       hull.z0 = std::min(hull.z0, p.z());
       hull.z1 = std::max(hull.z1, p.z());
     }
+  if (hull.z0 >= z1 || hull.z1 <= z0) return {};
   hull.outline = bim::convex_hull(std::move(hull.outline));
   return hull;
 }
@@ -36,8 +37,7 @@ std::vector<WallLine> furniture_rows(const bim::Plan& plan_W, const Pose& X_WI, 
   const Pose2 X_IW = heading(X_WI).inverse();
   std::vector<PlanSegment> fronts;
   for (const bim::MeshElement& element : plan_W.furniture.elements) {
-    const bim::PlanSolid hull = hull_of(plan_W.furniture, element);
-    if (hull.outline.empty() || hull.z0 - X_WI.t.z() >= ceiling_z || hull.z1 - X_WI.t.z() <= floor_z) continue;
+    const bim::PlanSolid hull = hull_of(plan_W.furniture, element, floor_z + X_WI.t.z(), ceiling_z + X_WI.t.z());
     for (PlanSegment& side : sides_of(hull, X_IW, X_WI.t.z())) {
       side.plan_face = 0;  // only faces make lines
       fronts.push_back(std::move(side));

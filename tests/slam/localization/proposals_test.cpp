@@ -43,7 +43,7 @@ TEST(Proposals, HoldEveryPoseThatLooksTheSame) {
   EXPECT_TRUE(holds({poses[0], poses[1]}, heading(index.X_WI.inverse() * Pose::from_xyz_yaw({10.4, 2.3, 0}, 0.4))));
 }
 
-// Between two rows of shelves a scan shows their fronts and the ends of the hall; one front was taken for a wall.
+// Between two rows of shelves a scan shows their fronts and the ends of the hall.
 TEST(Proposals, HoldThePoseBetweenRowsOfPlannedShelves) {
   const synthetic::House hall = synthetic::one_room(20.0, 12.0);
   synthetic::House built = hall;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slam/graph/optimize.h"
+#include "slam/mapping/floor_layer.h"
 #include "slam/mapping/s_graphs_plus.h"
 #include "slam/mapping/wall_layer.h"
 #include "tests/slam/mapping/seen_planes.h"
@@ -136,10 +137,12 @@ double worst_height_m(bool release) {
   }
   EXPECT_EQ(graph.planes.size(), 1U) << "step by step the map is bent to one plane";
   if (release) {
-    walls.release_floors(graph, 0);
+    WallLayer::release_floors(graph, 0, 0);
+    EXPECT_EQ(floor_plane_of(graph, 0), -1);
     (void)optimize(graph, 1, {});
     EXPECT_EQ(walls.observe(graph, std::vector<PlaneObservation>{see_floor(X_MR0, gentle(X_MR0.t.x()))}, 0.0),
               std::vector<int>{1});
+    EXPECT_EQ(floor_plane_of(graph, 0), 1);
   }
   double worst_m = 0.0;
   for (const KeyframeVertex& k : graph.keyframes) worst_m = std::max(worst_m, std::abs(k.X_MR.t.z() - k.X_OR.t.z()));
@@ -149,6 +152,40 @@ double worst_height_m(bool release) {
 TEST(WallLayer, FloorsOfASlopeDoNotBendThePathOnceReleased) {
   EXPECT_GT(worst_height_m(false), 0.2);
   EXPECT_LT(worst_height_m(true), 0.002);
+}
+
+TEST(WallLayer, ReleasesFloorsOfOneStorey) {
+  Graph graph;
+  for (const int storey : {0, 1}) graph.planes.push_back({level(3.0 * storey), PlaneKind::floor, storey});
+  for (const int plane : {0, 1, 0, 1}) {
+    PlaneFactor factor;
+    factor.keyframe = static_cast<int>(graph.plane_factors.size());
+    factor.plane = plane;
+    factor.information = Eigen::Matrix3d::Identity();
+    graph.plane_factors.push_back(factor);
+  }
+  WallLayer::release_floors(graph, 1, 2);
+  EXPECT_FALSE(graph.planes[0].released);
+  EXPECT_TRUE(graph.planes[1].released);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(graph.plane_factors[i].information(0, 0), 1.0) << i;
+  EXPECT_LT(graph.plane_factors[3].information(0, 0), 1e-6);
+}
+
+// On a street that falls by a storey no new storey begins.
+TEST(WallLayer, AStoreyWhoseFloorsWereReleasedGoesOn) {
+  Graph graph;
+  graph.planes.push_back({level(0.0), PlaneKind::floor, 0});
+  graph.keyframes.push_back({0, Pose::from_xyz_yaw({0.0, 0.0, 0.5}, 0.0), {}, 0});
+  const Pose X_MR = Pose::from_xyz_yaw({80.0, 0.0, -2.5}, 0.0);
+  const std::vector<PlaneObservation> seen = {see_floor(X_MR, -3.0)};
+  EXPECT_EQ(storey_of(graph, X_MR, seen, {}), 1);
+  graph.planes[0].released = true;
+  EXPECT_EQ(storey_of(graph, X_MR, seen, {}), 0);
+}
+
+TEST(LevelAgreement, ComparesOverNoWayWhereToldSo) {
+  LevelAgreement agreement{{.way_keyframes = 0, .way_chi2 = 0.0}};
+  EXPECT_EQ(kept(agreement, std::vector<Plane>(80, level(0.0)), step_covariance()), 80);
 }
 
 TEST(LevelAgreement, JudgesCeilingsApartFromFloors) {

@@ -71,7 +71,7 @@ double area_in_walls(const Room& room, const Region2& outline, const std::vector
 }
 
 /// Whether the second of two spaces in one place is the better room. It is the larger one, unless most of what that has
-/// more lies in walls, as where it goes on to their axes; of equal ones the first of the file.
+/// more lies in walls, as where it goes on to their axes; of equal ones the lowest number.
 bool second_is_the_room(const Room& a, const Region2& outline_a, const Room& b, const Region2& outline_b,
                         const std::vector<Wall>& walls) {
   constexpr double same_m2 = 0.01, most_share = 0.5;
