@@ -66,19 +66,25 @@ class StructureResiduals {
 /// Beams of one turn that should end at one wall and are not cut short, in their order.
 class WallBeams {
  public:
-  void add(bool penetrates) {
+  void add(std::size_t beam, bool penetrates) {
+    begins_turn_ = begins_turn_ || beam == 0;
+    last_beam_ = beam;
     ++(penetrates ? penetrating_ : met_);
     in_a_row_ = penetrates ? in_a_row_ + 1 : 0;
     if (met_ == 0) first_in_a_row_ = in_a_row_;
     most_in_a_row_ = std::max(most_in_a_row_, in_a_row_);
   }
-  /// How many of the penetrating beams one change of the building explains. The turn is closed: the last beam is beside
+  /// How many of the penetrating beams one change of the building explains. beams: of the turn, whose last is beside
   /// the first.
-  [[nodiscard]] int one_change() const {
-    return penetrating_ >= met_ ? penetrating_ : std::max(most_in_a_row_, first_in_a_row_ + in_a_row_);
+  [[nodiscard]] int one_change(std::size_t beams) const {
+    if (penetrating_ >= met_) return penetrating_;
+    const bool goes_round = begins_turn_ && last_beam_ + 1 == beams;
+    return goes_round ? std::max(most_in_a_row_, first_in_a_row_ + in_a_row_) : most_in_a_row_;
   }
 
  private:
+  bool begins_turn_ = false;
+  std::size_t last_beam_ = 0;
   int met_ = 0, penetrating_ = 0, in_a_row_ = 0, first_in_a_row_ = 0, most_in_a_row_ = 0;
 };
 
@@ -148,10 +154,10 @@ Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const Localiza
     const bool penetrates = residuals.across(i) > config.inlier_m;
     inliers += meets ? 1 : 0;
     penetrating += penetrates ? 1 : 0;
-    if (residuals.element(i) >= 0 && (meets || penetrates)) walls[residuals.element(i)].add(penetrates);
+    if (residuals.element(i) >= 0 && (meets || penetrates)) walls[residuals.element(i)].add(i, penetrates);
   }
   int one_change = 0;
-  for (const auto& [element, beams] : walls) one_change = std::max(one_change, beams.one_change());
+  for (const auto& [element, beams] : walls) one_change = std::max(one_change, beams.one_change(size));
   const double count = std::max<double>(1.0, static_cast<double>(scan.beams.size()));
   return {inliers / count, penetrating / count, one_change / count};
 }

@@ -108,20 +108,23 @@ TEST(Refine, AWallThatWasNotBuiltIsOneWallFromItsInsideToo) {
   EXPECT_LT(inside.penetration_ratio_otherwise(), 0.1);
 }
 
-/// What the plan, where one wall parts the room, says of scans in a building where that wall has openings (from and to,
-/// m).
+/// What the plan, where one wall of 9 m stands in a hall, says of scans in a building where that wall has openings
+/// (from and to along it, m).
 Agreement behind_openings(const std::vector<std::pair<double, double>>& openings) {
-  const synthetic::House room = synthetic::one_room(9.0, 6.0);
-  synthetic::House planned = room, built = room;
-  planned.boxes.push_back({{0.0, 3.0, 0.0}, {9.0, 3.2, 2.8}});
-  double x = 0.0;
+  const synthetic::House hall = synthetic::one_room(11.0, 6.0);
+  synthetic::House planned = hall, built = hall;
+  planned.boxes.push_back({{1.0, 3.0, 0.0}, {10.0, 3.2, 2.8}});
+  double x = 1.0;
+  const auto build_up_to = [&](double end) {
+    if (end > x) built.boxes.push_back({{x, 3.0, 0.0}, {end, 3.2, 2.8}});
+  };
   for (const auto& [from, to] : openings) {
-    built.boxes.push_back({{x, 3.0, 0.0}, {from, 3.2, 2.8}});
-    x = to;
+    build_up_to(1.0 + from);
+    x = 1.0 + to;
   }
-  built.boxes.push_back({{x, 3.0, 0.0}, {9.0, 3.2, 2.8}});
+  build_up_to(10.0);
   const PlanIndex index = make_plan_index(synthetic::plan_of(planned), "ground", {});
-  const Pose X_WR = Pose::from_xyz_yaw({4.5, 1.0, 0.46}, 0.2);
+  const Pose X_WR = Pose::from_xyz_yaw({5.5, 1.0, 0.46}, 0.2);
   return agreement(index.storeys.front(), heading(index.X_WI.inverse() * X_WR),
                    synthetic::house_scan(built, X_WR, Pose{}).scan, {}, {});
 }
@@ -137,6 +140,12 @@ TEST(Refine, ManyOpeningsInAWallThatStandsAreMoreThanOneChange) {
   const Agreement seen = behind_openings({{2.3, 3.3}, {4.1, 4.9}, {5.7, 6.7}});
   EXPECT_GT(seen.penetration_ratio_one_change, 0.03);
   EXPECT_GT(seen.penetration_ratio_otherwise(), FitConfig{}.misfit_penetration);
+}
+
+TEST(Refine, OpeningsAtBothEndsOfAWallAreNotOne) {
+  const Agreement left = behind_openings({{0.0, 2.5}}), both = behind_openings({{0.0, 2.5}, {6.5, 9.0}});
+  EXPECT_GT(both.penetration_ratio, left.penetration_ratio + 0.03);
+  EXPECT_GT(both.penetration_ratio_otherwise(), 0.03);
 }
 
 TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {

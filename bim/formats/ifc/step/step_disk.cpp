@@ -70,8 +70,10 @@ bool begins_upright(const Points& line) {
 
 Facets swept_disk(const Points& line, const SweptDisk& disk) {
   constexpr double least_m = 1e-6;
+  constexpr std::size_t most_corners = 1'000'000;
   const Points middle = apart(line);
   if (middle.size() < 2 || !(disk.radius_m > least_m) || !(disk.inner_m < disk.radius_m) || disk.corners < 3) return {};
+  if (middle.size() > most_corners / static_cast<std::size_t>(disk.corners)) return {};
   Facets facets;
   facets.points = tube(middle, disk.radius_m, disk.corners);
   if (facets.points.empty()) return {};

@@ -19,7 +19,7 @@ struct SweptDisk {
 [[nodiscard]] bool begins_upright(const std::vector<Eigen::Vector3d>& line);
 
 /// The disk swept along the line, m, mitred where that bends. Empty for a line without length, one that turns back,
-/// and a disk without size.
+/// a disk without size, and one of more than a million corners.
 [[nodiscard]] Facets swept_disk(const std::vector<Eigen::Vector3d>& line, const SweptDisk& disk);
 
 }  // namespace plumbline::bim

@@ -90,6 +90,9 @@ TEST(SweptDisk, NeedsASizeAndALength) {
   EXPECT_TRUE(swept_disk({{0, 0, 0}, {0, 0, 0}}, usual).loops.empty());
   EXPECT_TRUE(swept_disk({{0, 0, 0}, {0, 0, 1}}, {0.0, 0.0, 12}).loops.empty());
   EXPECT_TRUE(swept_disk({{0, 0, 0}, {0, 0, 1}}, {0.1, 0.2, 12}).loops.empty());
+  Line fine;
+  for (int i = 0; i < 30'000; ++i) fine.emplace_back(0.0, 0.0, 0.01 * i);
+  EXPECT_TRUE(swept_disk(fine, {0.1, 0.0, 36}).loops.empty()) << "more than a million corners";
 }
 
 }  // namespace
