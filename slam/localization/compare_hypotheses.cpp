@@ -71,6 +71,8 @@ class EvidenceAccumulator {
     sum_.before_m += log_likelihood * before_m;
     sum_.before_m2 += log_likelihood * before_m * before_m;
     sum_.within.extend(end_I);
+    sum_.ends += log_likelihood * end_I;
+    sum_.ends2 += log_likelihood * end_I * end_I.transpose();
   }
 
  private:

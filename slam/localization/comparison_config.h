@@ -29,6 +29,7 @@ struct HypothesisComparisonConfig {
   double front_depth_min_m = 0.2;
   double front_depth_max_m = 0.8;
   double front_sigma_m = 0.05;
+  double front_slide_m = 0.5;
   double front_cap = 4.0;
   double planned_furniture_m = 0.12;
   double opening_depth_m = 0.35;
@@ -100,6 +101,9 @@ struct HypothesisComparisonConfig {
     v("front_depth_max_m", front_depth_max_m, Field{.doc = "largest such distance", .min = 0});
     v("front_sigma_m", front_sigma_m,
       Field{.doc = "standard deviation of that distance up to which the object is flat", .min = 0});
+    // A pose that was moved across a front has been fitted since.
+    v("front_slide_m", front_slide_m,
+      Field{.doc = "distance along a flat object up to which poses are displaced across it", .min = 0});
     // Less than convergence.log_ratio, as for missing_wall_cap: a wall of cupboards that stands where another pose has
     // a wall decides nothing alone. Chosen on eight scenarios that were made to deceive the method.
     v("front_cap", front_cap,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "slam/localization/compare_hypotheses.h"
@@ -40,9 +43,23 @@ bool is_flat(const OutlierCause& cause, const EvidenceByCause::Sum& sum, const H
          variance <= config.front_sigma_m * config.front_sigma_m;
 }
 
+/// Flat, and the poses are displaced across it: a pose that has a wall there was put there by it alone.
+bool alone_fixes(const EvidenceByCause::Sum& sum, const Eigen::Vector2d& displacement,
+                 const HypothesisComparisonConfig& config) {
+  const Eigen::Vector2d mean = sum.ends / sum.log_likelihood;
+  const Eigen::Matrix2d scatter = sum.ends2 / sum.log_likelihood - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
+  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  return axes.eigenvalues()(0) <= config.front_sigma_m * config.front_sigma_m &&
+         std::abs(along.dot(displacement)) <= config.front_slide_m;
+}
+
 /// The ends of a front are seen before the walls beside it, too.
-bool is_front(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
-  return object.length_m > config.object_m && object.flat > 0.5 * object.sum.log_likelihood;
+bool is_front(const UnplannedObject& object, const std::optional<Eigen::Vector2d>& displacement,
+              const HypothesisComparisonConfig& config) {
+  if (object.length_m <= config.object_m) return false;
+  return object.flat > 0.5 * object.sum.log_likelihood ||
+         (displacement && alone_fixes(object.sum, *displacement, config));
 }
 
 /// 1 until the better pose leaves half as much of the object unexplained as it explains, down to 0 where it leaves as
@@ -73,6 +90,8 @@ void join_near(std::vector<UnplannedObject>& objects, const HypothesisComparison
     objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
     objects[i].sum.unexplained += objects[k].sum.unexplained;
     objects[i].sum.within.extend(objects[k].sum.within);
+    objects[i].sum.ends += objects[k].sum.ends;
+    objects[i].sum.ends2 += objects[k].sum.ends2;
     // A small one may be seen before several faces, one beside the other.
     const double across_m = objects[i].sum.within.diagonal().norm();
     objects[i].length_m = across_m <= config.object_m ? across_m : objects[i].length_m + objects[k].length_m;
@@ -92,6 +111,8 @@ void EvidenceByCause::add(const OutlierCause& cause, const Sum& more, double sca
   sum.before_m += scale * more.before_m;
   sum.before_m2 += scale * more.before_m2;
   sum.within.extend(more.within);
+  sum.ends += scale * more.ends;
+  sum.ends2 += scale * more.ends2;
 }
 
 void EvidenceByCause::add(const EvidenceByCause& more, double scale) {
@@ -118,7 +139,8 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
   }
   join_near(objects, config);
   for (const UnplannedObject& object : objects)
-    (is_front(object, config) ? fronts : total) += std::min(object.log_likelihood, cap_of(object, config));
+    (is_front(object, displacement_, config) ? fronts : total) +=
+        std::min(object.log_likelihood, cap_of(object, config));
   const double others = total - missing_wall;
   const double front = std::min(fronts, config.front_cap + corroborated * total);
   return others + front + std::min(missing_wall, config.missing_wall_cap + corroborated * (others + front));

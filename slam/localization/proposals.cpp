@@ -110,4 +110,31 @@ std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& 
   return poses;
 }
 
+std::vector<StoreyPose> slide_across_walls(const PlanIndex& index, const StoreyPose& pose, const LocalizationScan& scan,
+                                           int beam_stride, const LikelihoodConfig& likelihood,
+                                           const ProposalConfig& config) {
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  std::vector<double> normals;  // azimuths in I
+  std::vector<StoreyPose> slid;
+  const std::size_t walls = std::min(scan.walls.size(), static_cast<std::size_t>(config.walls));
+  for (std::size_t i = 0; i < walls; ++i) {
+    const double normal = pose.X_IH.yaw + scan.walls[i].azimuth;
+    const auto is_parallel = [&](double other) { return std::abs(std::sin(other - normal)) < config.angle_tolerance; };
+    if (std::any_of(normals.begin(), normals.end(), is_parallel)) continue;
+    normals.push_back(normal);
+    const Eigen::Vector2d step = config.slide_step_m * Eigen::Vector2d(std::cos(normal), std::sin(normal));
+    std::vector<ScoredPose> along;
+    const int reach = static_cast<int>(config.slide_m / config.slide_step_m);
+    for (int k = -reach; k <= reach; ++k) {
+      const StoreyPose moved{pose.storey, {pose.X_IH.t + k * step, pose.X_IH.yaw}};
+      if (storey.room_at(moved.X_IH.t) < 0) continue;
+      along.push_back({moved, beam_log_likelihood(storey, moved.X_IH, scan, beam_stride, likelihood)});
+    }
+    for (const StoreyPose& each :
+         non_max_suppression(std::move(along), config.slide_count, config.gap_m, config.gap_rad))
+      slid.push_back(each);
+  }
+  return slid;
+}
+
 }  // namespace plumbline::slam

@@ -17,6 +17,9 @@ struct ProposalConfig {
   int count = 96;
   double gap_m = 0.3;
   double gap_rad = 0.35;
+  double slide_m = 30.0;
+  double slide_step_m = 0.5;
+  int slide_count = 64;
 
   template <class V>
   void visit(V& v) {
@@ -30,6 +33,12 @@ struct ProposalConfig {
       Field{.doc = "most poses that are proposed by walls, and by rows of furniture", .min = 1, .max = 10000});
     v("gap_m", gap_m, Field{.doc = "least distance between two proposed poses", .min = 0});
     v("gap_rad", gap_rad, Field{.doc = "or least angle between two proposed poses", .min = 0});
+    // Half the length of a large hall.
+    v("slide_m", slide_m,
+      Field{.doc = "farthest that the leading pose is moved across a wall observed from it", .min = 0, .max = 200});
+    v("slide_step_m", slide_step_m, Field{.doc = "distance between these places", .min = 0.05});
+    v("slide_count", slide_count,
+      Field{.doc = "most of them that are proposed for each direction", .min = 0, .max = 1000});
   }
 };
 
@@ -54,5 +63,12 @@ struct ScoredPose {
 [[nodiscard]] std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& prior,
                                                     const LocalizationScan& scan, int beam_stride,
                                                     const LikelihoodConfig& likelihood, const ProposalConfig& config);
+
+/// The pose moved across each of the walls observed from it, best first by the beams: what was taken for a wall may be
+/// the front of a row of furniture, which alone puts the pose where it is.
+[[nodiscard]] std::vector<StoreyPose> slide_across_walls(const PlanIndex& index, const StoreyPose& pose,
+                                                         const LocalizationScan& scan, int beam_stride,
+                                                         const LikelihoodConfig& likelihood,
+                                                         const ProposalConfig& config);
 
 }  // namespace plumbline::slam

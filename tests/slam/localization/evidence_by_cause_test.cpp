@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+
 #include "slam/localization/compare_hypotheses.h"
 #include "slam/localization/global_localizer.h"
 
@@ -84,6 +87,36 @@ TEST(EvidenceByCause, FrontsOfCupboardsDecideOnlyWithOthers) {
     other.add(cause(1), before(depth_m, sigma_m, 0.0));
     EXPECT_GT(other.total(config), ConvergenceConfig{}.log_ratio) << depth_m << " " << sigma_m;
   }
+}
+
+// A pose that has a wall where a row of shelves stands may have been put there by that row alone.
+TEST(EvidenceByCause, AFrontAcrossWhichThePosesAreDisplacedDecidesOnlyWithOthers) {
+  const HypothesisComparisonConfig config;
+  const double turn = 0.4;
+  const Eigen::Vector2d along(std::cos(turn), std::sin(turn)), across(-along.y(), along.x());
+  const auto front = [&](double bulge_m) {
+    EvidenceByCause evidence;
+    for (int i = 0; i < 30; ++i) {
+      const Eigen::Vector2d end = 0.1 * i * along + (i % 2) * bulge_m * across;
+      EvidenceByCause::Sum sum = seen_in(5.0, {end, end + 0.1 * along});
+      sum.ends = 5.0 * end;
+      sum.ends2 = 5.0 * end * end.transpose();
+      evidence.add({OutlierCause::Kind::unplanned, i, 0}, sum);
+    }
+    return evidence;
+  };
+  const auto counts = [&](double bulge_m, const std::optional<Eigen::Vector2d>& displacement) {
+    EvidenceByCause evidence = front(bulge_m);
+    evidence.displaced_by(displacement);
+    return evidence.total(config);
+  };
+  EXPECT_EQ(counts(0.02, 8.0 * across), config.front_cap);
+  EXPECT_LT(config.front_cap, ConvergenceConfig{}.log_ratio);
+  const double whole = front(0.02).total(config);
+  EXPECT_GT(whole, 2.0 * ConvergenceConfig{}.log_ratio);
+  EXPECT_EQ(counts(0.02, std::nullopt), whole) << "the poses are turned";
+  EXPECT_EQ(counts(0.02, 8.0 * along), whole) << "they are displaced along it";
+  EXPECT_EQ(counts(0.3, 8.0 * across), front(0.3).total(config)) << "it is not flat";
 }
 
 TEST(EvidenceByCause, AWallThatBeamsEndInIsNotMissing) {

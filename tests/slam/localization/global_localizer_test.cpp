@@ -130,5 +130,29 @@ TEST(GlobalLocalizer, IsNotSureByTheLastScansAloneWhereThoseBeforeDidNotFit) {
   EXPECT_NE(state_after_walk(12), State::converged);
 }
 
+// Between two rows of shelves that the plan lacks one of them looks like the hall's wall.
+TEST(GlobalLocalizer, IsNotSureWhereOneFrontAloneFixesThePose) {
+  synthetic::House hall = synthetic::one_room(40.0, 24.0);
+  for (double x = 8.0; x < 34.0; x += 4.0) hall.boxes.push_back({{x, 23.5, 0.0}, {x + 0.5, 24.0, hall.height_m}});
+  synthetic::House built = hall;
+  for (const double y : {9.6, 13.8}) built.boxes.push_back({{6.0, y, 0.0}, {34.0, y + 1.1, 2.7}});
+  const PlanIndex index = make_plan_index(synthetic::plan_of(hall), "ground", {});
+  const StartPrior start{(index.X_WI.inverse() * Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.05)).yaw()};
+  const auto was_sure = [&](const GlobalLocalizerConfig& config) {
+    GlobalLocalizer search(config, 7);
+    bool sure = false;
+    for (int i = 0; i < 24; ++i) {
+      const Pose X_WR = Pose::from_xyz_yaw({18.0 + 0.25 * i, 12.3, 0.46}, 0.05);
+      search.update(index, start, synthetic::house_scan(built, X_WR, X_WR).scan);
+      sure = sure || search.state() == State::converged;
+    }
+    return sure;
+  };
+  EXPECT_FALSE(was_sure({}));
+  GlobalLocalizerConfig without;
+  without.proposals.slide_count = 0;
+  EXPECT_TRUE(was_sure(without)) << "of a pose by the hall's wall";
+}
+
 }  // namespace
 }  // namespace plumbline::slam

@@ -63,5 +63,25 @@ TEST(Proposals, HoldThePoseBetweenRowsOfPlannedShelves) {
   }
 }
 
+// What was taken for the wall of a hall may be the front of a row that the plan lacks.
+TEST(Proposals, SlideThePoseAcrossEachWallWithinRooms) {
+  const synthetic::House hall = synthetic::one_room(20.0, 12.0);
+  const PlanIndex index = make_plan_index(synthetic::plan_of(hall), "ground", {});
+  const Pose X_WR = Pose::from_xyz_yaw({8.0, 2.0, 0.46}, 0.3);
+  const LocalizationScan scan = synthetic::house_scan(hall, X_WR, Pose{}).scan;
+  const Pose2 X_IH = heading(index.X_WI.inverse() * X_WR);
+  const ProposalConfig config;
+  const std::vector<StoreyPose> slid = slide_across_walls(index, {0, X_IH}, scan, 6, {}, config);
+  ASSERT_LE(slid.size(), 2 * static_cast<std::size_t>(config.slide_count)) << "two directions of four walls";
+  for (int k = -2; k <= 18; ++k) {
+    const Pose moved = Pose::from_xyz_yaw({8.0, 2.0 + config.slide_step_m * k, 0.46}, 0.3);
+    EXPECT_TRUE(holds(slid, heading(index.X_WI.inverse() * moved))) << k;
+  }
+  for (const StoreyPose& pose : slid) {
+    EXPECT_GE(index.storeys.front().room_at(pose.X_IH.t), 0);
+    EXPECT_EQ(pose.X_IH.yaw, X_IH.yaw);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam
