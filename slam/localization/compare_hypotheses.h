@@ -43,23 +43,20 @@ class EvidenceByCause {
   }
   void add(const EvidenceByCause& more, double scale);
   void clear() { sums_.clear(); }
-  /// The better pose lies by so much, in I, from the worse one, m, and has its yaw. None: it is turned.
-  void displaced_by(const std::optional<Eigen::Vector2d>& t_I) { displacement_ = t_I; }
   /// No cause counts for more than its cap: an element that was not built, an object that was not planned, or a
   /// railing, which never decides alone. Nor does one wall that is missing as a whole: up to missing_wall_cap and half
   /// of what other causes count for. What stands at one place before several faces, as in a corner, is one object. An
   /// object that ends where the better pose has something end, on all sides, is hardly furniture there by chance and
   /// counts for more. One of which the better pose leaves more than half as much unexplained as it explains counts for
   /// less, and for nothing where it leaves as much: an object stands there at either pose. What may be built-in
-  /// furniture, flat and as far before a wall, counts as a wall that is missing does. So does a flat front across
-  /// which the poses are displaced: it alone puts the better pose where it is.
+  /// furniture, flat and as far before a wall, counts as a wall that is missing does. So does what is as long and
+  /// straight as a row of furniture: it may stand by chance where the better pose has a wall.
   [[nodiscard]] double total(const HypothesisComparisonConfig& config) const;
 
   [[nodiscard]] std::map<OutlierCause, Sum>& sums() { return sums_; }
 
  private:
   std::map<OutlierCause, Sum> sums_;
-  std::optional<Eigen::Vector2d> displacement_;
 };
 
 /// Comparison of two hypotheses by one scan.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "slam/localization/compare_hypotheses.h"
@@ -16,7 +15,7 @@ namespace {
 struct UnplannedObject {
   double log_likelihood = 0.0;  ///< each cause's up to its cap
   double length_m = 0.0;        ///< of what beams ended at
-  double flat = 0.0;            ///< of sum, what is as flat as the front of a row of cupboards
+  double front = 0.0;           ///< of sum, what is like the front of a row of cupboards, or as long and straight
   EvidenceByCause::Sum sum;     ///< not capped
 };
 
@@ -43,23 +42,19 @@ bool is_flat(const OutlierCause& cause, const EvidenceByCause::Sum& sum, const H
          variance <= config.front_sigma_m * config.front_sigma_m;
 }
 
-/// Flat, and the poses are displaced across it: a pose that has a wall there was put there by it alone.
-bool alone_fixes(const EvidenceByCause::Sum& sum, const Eigen::Vector2d& displacement,
-                 const HypothesisComparisonConfig& config) {
+/// Where beams ended lies along one line, as a wall would.
+bool is_straight(const EvidenceByCause::Sum& sum, const HypothesisComparisonConfig& config) {
   const Eigen::Vector2d mean = sum.ends / sum.log_likelihood;
   const Eigen::Matrix2d scatter = sum.ends2 / sum.log_likelihood - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
-  const Eigen::Vector2d along = axes.eigenvectors().col(1);
-  return axes.eigenvalues()(0) <= config.front_sigma_m * config.front_sigma_m &&
-         std::abs(along.dot(displacement)) <= config.front_slide_m;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()(0) <= config.front_sigma_m * config.front_sigma_m;
 }
 
-/// The ends of a front are seen before the walls beside it, too.
-bool is_front(const UnplannedObject& object, const std::optional<Eigen::Vector2d>& displacement,
-              const HypothesisComparisonConfig& config) {
+/// The ends of a front are seen before the walls beside it, too. Its parts before several faces are straight together;
+/// with what stands beside it they are not.
+bool is_front(const UnplannedObject& object, const HypothesisComparisonConfig& config) {
   if (object.length_m <= config.object_m) return false;
-  return object.flat > 0.5 * object.sum.log_likelihood ||
-         (displacement && alone_fixes(object.sum, *displacement, config));
+  return object.front > 0.5 * object.sum.log_likelihood || is_straight(object.sum, config);
 }
 
 /// 1 until the better pose leaves half as much of the object unexplained as it explains, down to 0 where it leaves as
@@ -86,7 +81,7 @@ void join_near(std::vector<UnplannedObject>& objects, const HypothesisComparison
       continue;
     }
     objects[i].log_likelihood += objects[k].log_likelihood;
-    objects[i].flat += objects[k].flat;
+    objects[i].front += objects[k].front;
     objects[i].sum.log_likelihood += objects[k].sum.log_likelihood;
     objects[i].sum.unexplained += objects[k].sum.unexplained;
     objects[i].sum.within.extend(objects[k].sum.within);
@@ -130,8 +125,9 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
     } else if (cause.kind == OutlierCause::Kind::between_bars || sum.within.isEmpty())
       total += std::min(sum.log_likelihood, config.object_cap);
     else {
-      UnplannedObject object{0.0, sum.within.diagonal().norm(), is_flat(cause, sum, config) ? sum.log_likelihood : 0.0,
-                             sum};
+      const double length_m = sum.within.diagonal().norm();
+      const bool front = is_flat(cause, sum, config) || (length_m > config.object_m && is_straight(sum, config));
+      UnplannedObject object{0.0, length_m, front ? sum.log_likelihood : 0.0, sum};
       object.log_likelihood =
           std::min(sum.log_likelihood, is_outlined(sum, config) ? config.outlined_cap : config.object_cap);
       objects.push_back(object);
@@ -139,8 +135,7 @@ double EvidenceByCause::total(const HypothesisComparisonConfig& config) const {
   }
   join_near(objects, config);
   for (const UnplannedObject& object : objects)
-    (is_front(object, displacement_, config) ? fronts : total) +=
-        std::min(object.log_likelihood, cap_of(object, config));
+    (is_front(object, config) ? fronts : total) += std::min(object.log_likelihood, cap_of(object, config));
   const double others = total - missing_wall;
   const double front = std::min(fronts, config.front_cap + corroborated * total);
   return others + front + std::min(missing_wall, config.missing_wall_cap + corroborated * (others + front));

@@ -149,8 +149,10 @@ void GlobalLocalizer::find_alternatives(const PlanIndex& index, const StartPrior
     poses.push_back(pose);
   hypotheses_.add(index, poses);
   hypotheses_.prune_and_normalize();
-  hypotheses_.add(index, slide_across_walls(index, hypotheses_.all().front().pose(), scan, config_.filter.beam_stride,
-                                            config_.likelihood, config_.proposals));
+  for (const std::vector<StoreyPose>& slid :
+       slide_across_walls(index, hypotheses_.all().front().pose(), scan, config_.filter.beam_stride, config_.likelihood,
+                          config_.proposals))
+    hypotheses_.add_best(index, slid);
   hypotheses_.prune_and_normalize();
   hypotheses_.add(index, aliases(index, hypotheses_.all().front().pose(), prior, scan));
   hypotheses_.prune_and_normalize();

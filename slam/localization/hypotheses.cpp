@@ -104,15 +104,36 @@ void HypothesisSet::add(const PlanIndex& index, const Clustering& clustering) {
 
 void HypothesisSet::add(const PlanIndex& index, const std::vector<StoreyPose>& poses) {
   if (history_.empty()) return;
-  const LocalizationScan& scan = history_.back().scan;
   for (const StoreyPose& pose : poses) {
-    const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
-    const Refined refined = refine(storey, pose.X_IH, scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
+    const Refined refined = refined_at_last_scan(index, pose);
     // An alias keeps its share at exactly its pose; the scan, fitted from there, may pull it aside.
     if (pose.exact) try_pose(index, pose, refined.covariance);
     try_pose(index, {pose.storey, refined.X_IH}, refined.covariance);
   }
   rebase_reference(index);
+}
+
+void HypothesisSet::add_best(const PlanIndex& index, const std::vector<StoreyPose>& poses) {
+  if (history_.empty()) return;
+  const int first = next_id_;
+  for (const StoreyPose& pose : poses) {
+    const Refined refined = refined_at_last_scan(index, pose);
+    const StoreyPose fitted{pose.storey, refined.X_IH};
+    if (find(fitted, config_.merge_m, config_.merge_rad) < 0) try_pose(index, fitted, refined.covariance);
+  }
+  const PoseHypothesis* best = nullptr;
+  for (const PoseHypothesis& hypothesis : hypotheses_)
+    if (hypothesis.id >= first && (best == nullptr || hypothesis.evidence > best->evidence)) best = &hypothesis;
+  if (best == nullptr) return;
+  // They stand behind all others, so that the reference keeps its place.
+  const int kept = best->id;
+  std::erase_if(hypotheses_,
+                [&](const PoseHypothesis& hypothesis) { return hypothesis.id >= first && hypothesis.id != kept; });
+}
+
+Refined HypothesisSet::refined_at_last_scan(const PlanIndex& index, const StoreyPose& pose) const {
+  const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
+  return refine(storey, pose.X_IH, history_.back().scan, likelihood_, pose.exact ? tracking_refine_ : refine_);
 }
 
 void HypothesisSet::try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance) {

@@ -197,6 +197,9 @@ class HypothesisSet {
   /// added where it explains the history better, and takes its place when near ones merge: a hypothesis that clutter
   /// has pulled aside would lose against its alias.
   void add(const PlanIndex& index, const std::vector<StoreyPose>& poses);
+  /// The same with the likeliest of those that are not near a known hypothesis. All stay compared with the reference
+  /// that they have: pairwise ratios with caps may make a circle of three, and the last would drop the first.
+  void add_best(const PlanIndex& index, const std::vector<StoreyPose>& poses);
   /// Compares all with the best one anew, each by all scans kept along one path that ends at its pose. While it was
   /// tracked a hypothesis may have slid along a corridor to where each scan fitted best; one that faces did not hold
   /// along some direction is moved to where the last scan fits best.
@@ -245,6 +248,7 @@ class HypothesisSet {
   enum class Grid { whole, screening };
   /// The place along the direction that the fit of the last scan left open, if any.
   void slide_along_open_direction(const PlanIndex& index, PoseHypothesis& hypothesis) const;
+  [[nodiscard]] Refined refined_at_last_scan(const PlanIndex& index, const StoreyPose& pose) const;
   /// Adds a pose unless it is known or the kept history rules it out.
   void try_pose(const PlanIndex& index, const StoreyPose& pose, const Eigen::Matrix3d& covariance);
   /// Every how many of the kept scans one is replayed: as many scans at most as of a full history.

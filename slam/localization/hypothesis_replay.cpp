@@ -79,11 +79,6 @@ void HypothesisSet::accumulate_evidence(const LocalizationScan& scan, const Scan
   const double size = std::abs(comparison.ratio);
   if (size <= config_.deadband) return;
   const double scale = own.represented_scans * std::min(size - config_.deadband, config_.step_cap) / size;
-  std::optional<Eigen::Vector2d> displacement;
-  if (std::abs(wrap_angle(own.X_IH.yaw - reference.X_IH.yaw)) <= config_.merge_rad)
-    displacement = reference.X_IH.t - own.X_IH.t;
-  balance.against.displaced_by(displacement);
-  balance.supporting.displaced_by(displacement);
   balance.against.add(comparison.against_a, scale);
   balance.supporting.add(comparison.against_b, scale);
 }

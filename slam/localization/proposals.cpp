@@ -110,12 +110,13 @@ std::vector<StoreyPose> propose_poses(const PlanIndex& index, const StartPrior& 
   return poses;
 }
 
-std::vector<StoreyPose> slide_across_walls(const PlanIndex& index, const StoreyPose& pose, const LocalizationScan& scan,
-                                           int beam_stride, const LikelihoodConfig& likelihood,
-                                           const ProposalConfig& config) {
+std::vector<std::vector<StoreyPose>> slide_across_walls(const PlanIndex& index, const StoreyPose& pose,
+                                                        const LocalizationScan& scan, int beam_stride,
+                                                        const LikelihoodConfig& likelihood,
+                                                        const ProposalConfig& config) {
   const StoreyIndex& storey = index.storeys[static_cast<std::size_t>(pose.storey)];
   std::vector<double> normals;  // azimuths in I
-  std::vector<StoreyPose> slid;
+  std::vector<std::vector<StoreyPose>> slid;
   const std::size_t walls = std::min(scan.walls.size(), static_cast<std::size_t>(config.walls));
   for (std::size_t i = 0; i < walls; ++i) {
     const double normal = pose.X_IH.yaw + scan.walls[i].azimuth;
@@ -130,9 +131,7 @@ std::vector<StoreyPose> slide_across_walls(const PlanIndex& index, const StoreyP
       if (storey.room_at(moved.X_IH.t) < 0) continue;
       along.push_back({moved, beam_log_likelihood(storey, moved.X_IH, scan, beam_stride, likelihood)});
     }
-    for (const StoreyPose& each :
-         non_max_suppression(std::move(along), config.slide_count, config.gap_m, config.gap_rad))
-      slid.push_back(each);
+    slid.push_back(non_max_suppression(std::move(along), config.slide_count, config.gap_m, config.gap_rad));
   }
   return slid;
 }

@@ -64,11 +64,11 @@ struct ScoredPose {
                                                     const LocalizationScan& scan, int beam_stride,
                                                     const LikelihoodConfig& likelihood, const ProposalConfig& config);
 
-/// The pose moved across each of the walls observed from it, best first by the beams: what was taken for a wall may be
-/// the front of a row of furniture, which alone puts the pose where it is.
-[[nodiscard]] std::vector<StoreyPose> slide_across_walls(const PlanIndex& index, const StoreyPose& pose,
-                                                         const LocalizationScan& scan, int beam_stride,
-                                                         const LikelihoodConfig& likelihood,
-                                                         const ProposalConfig& config);
+/// The pose moved across the largest walls observed from it, for each direction best first by the beams: what was taken
+/// for a wall may be the front of a row of furniture, which alone puts the pose where it is.
+[[nodiscard]] std::vector<std::vector<StoreyPose>> slide_across_walls(const PlanIndex& index, const StoreyPose& pose,
+                                                                      const LocalizationScan& scan, int beam_stride,
+                                                                      const LikelihoodConfig& likelihood,
+                                                                      const ProposalConfig& config);
 
 }  // namespace plumbline::slam

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 
 #include "slam/localization/compare_hypotheses.h"
 #include "slam/localization/global_localizer.h"
@@ -17,9 +16,13 @@ HypothesisComparisonConfig with_caps(double object_cap, double cause_cap) {
   return config;
 }
 
-/// Evidence of beams that ended within a box.
+/// Evidence of beams that ended within a box of at least 0.4 m each way, and are spread over it.
 EvidenceByCause::Sum seen_in(double log_likelihood, const Eigen::AlignedBox2d& within) {
-  return {log_likelihood, 0.0, 0.0, within};
+  EvidenceByCause::Sum sum{log_likelihood, 0.0, 0.0, within};
+  const Eigen::Vector2d centre = within.center(), spread = (0.5 * within.sizes()).cwiseMax(0.2);
+  sum.ends = log_likelihood * centre;
+  sum.ends2 = log_likelihood * (centre * centre.transpose() + Eigen::Matrix2d(spread.cwiseAbs2().asDiagonal()));
+  return sum;
 }
 
 TEST(EvidenceByCause, NoCauseCountsForMoreThanTheCap) {
@@ -89,34 +92,50 @@ TEST(EvidenceByCause, FrontsOfCupboardsDecideOnlyWithOthers) {
   }
 }
 
-// A pose that has a wall where a row of shelves stands may have been put there by that row alone.
-TEST(EvidenceByCause, AFrontAcrossWhichThePosesAreDisplacedDecidesOnlyWithOthers) {
+/// Beams that ended along a line, each as likely.
+EvidenceByCause::Sum seen_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double bulge_m = 0.0) {
+  EvidenceByCause::Sum sum;
+  const Eigen::Vector2d along = (to - from).normalized(), across(-along.y(), along.x());
+  for (int i = 0; i <= 20; ++i) {
+    const Eigen::Vector2d end = from + 0.05 * i * (to - from) + (i % 2) * bulge_m * across;
+    sum.log_likelihood += 1.0;
+    sum.within.extend(end);
+    sum.ends += end;
+    sum.ends2 += end * end.transpose();
+  }
+  return sum;
+}
+
+// A pose may have a wall by chance where a row of shelves stands.
+TEST(EvidenceByCause, AStraightRowOfObjectsDecidesOnlyWithOthers) {
   const HypothesisComparisonConfig config;
-  const double turn = 0.4;
-  const Eigen::Vector2d along(std::cos(turn), std::sin(turn)), across(-along.y(), along.x());
-  const auto front = [&](double bulge_m) {
-    EvidenceByCause evidence;
-    for (int i = 0; i < 30; ++i) {
-      const Eigen::Vector2d end = 0.1 * i * along + (i % 2) * bulge_m * across;
-      EvidenceByCause::Sum sum = seen_in(5.0, {end, end + 0.1 * along});
-      sum.ends = 5.0 * end;
-      sum.ends2 = 5.0 * end * end.transpose();
-      evidence.add({OutlierCause::Kind::unplanned, i, 0}, sum);
-    }
-    return evidence;
-  };
-  const auto counts = [&](double bulge_m, const std::optional<Eigen::Vector2d>& displacement) {
-    EvidenceByCause evidence = front(bulge_m);
-    evidence.displaced_by(displacement);
-    return evidence.total(config);
-  };
-  EXPECT_EQ(counts(0.02, 8.0 * across), config.front_cap);
   EXPECT_LT(config.front_cap, ConvergenceConfig{}.log_ratio);
-  const double whole = front(0.02).total(config);
-  EXPECT_GT(whole, 2.0 * ConvergenceConfig{}.log_ratio);
-  EXPECT_EQ(counts(0.02, std::nullopt), whole) << "the poses are turned";
-  EXPECT_EQ(counts(0.02, 8.0 * along), whole) << "they are displaced along it";
-  EXPECT_EQ(counts(0.3, 8.0 * across), front(0.3).total(config)) << "it is not flat";
+  for (int k = 0; k < 20; ++k) {
+    const double turn = 0.3 * k;
+    const Eigen::Vector2d along(std::cos(turn), std::sin(turn));
+    const auto counts = [&](double bulge_m, double length_m) {
+      EvidenceByCause evidence;
+      for (int i = 0; i < 5; ++i)
+        evidence.add({OutlierCause::Kind::unplanned, i, 0},
+                     seen_along(0.2 * i * length_m * along, 0.2 * (i + 1) * length_m * along, bulge_m));
+      return evidence.total(config);
+    };
+    EXPECT_EQ(counts(0.02, 4.0), config.front_cap);
+    EXPECT_GT(counts(0.3, 4.0), 2.0 * ConvergenceConfig{}.log_ratio) << "it is not straight";
+  }
+  EvidenceByCause with_wall;
+  with_wall.add({OutlierCause::Kind::unplanned, 0, 0}, seen_along({0.0, 0.0}, {4.0, 0.0}));
+  with_wall.add({OutlierCause::Kind::not_built, 3}, 50.0);
+  EXPECT_GT(with_wall.total(config), config.front_cap + config.cause_cap);
+}
+
+// A row of shelves is seen before the wall behind it, and its end before another one.
+TEST(EvidenceByCause, AFrontWithItsEndIsStillAFront) {
+  const HypothesisComparisonConfig config;
+  EvidenceByCause evidence;
+  evidence.add({OutlierCause::Kind::in_front_of_face, 1, 0}, seen_along({0.0, 0.0}, {6.0, 0.0}));
+  evidence.add({OutlierCause::Kind::in_front_of_face, 2, 0}, seen_along({6.0, 0.0}, {6.0, 1.1}), 0.8);
+  EXPECT_EQ(evidence.total(config), config.front_cap);
 }
 
 TEST(EvidenceByCause, AWallThatBeamsEndInIsNotMissing) {

@@ -152,6 +152,9 @@ TEST(GlobalLocalizer, IsNotSureWhereOneFrontAloneFixesThePose) {
   GlobalLocalizerConfig without;
   without.proposals.slide_count = 0;
   EXPECT_TRUE(was_sure(without)) << "of a pose by the hall's wall";
+  GlobalLocalizerConfig counts_whole;
+  counts_whole.comparison.front_cap = 1e6;
+  EXPECT_TRUE(was_sure(counts_whole)) << "as the front counts like any object";
 }
 
 }  // namespace

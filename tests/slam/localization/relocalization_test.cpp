@@ -186,10 +186,12 @@ TEST(Relocalization, AKnownHeadingLeadsAfterTheRobotWasLost) {
   EXPECT_TRUE(converged);
   ASSERT_TRUE(lost);
   const std::vector<Hypothesis>& last = walked.outputs.back().hypotheses;
-  ASSERT_EQ(last.size(), 2U);
+  ASSERT_GE(last.size(), 2U);
   EXPECT_LT(walked.error_m(walked.outputs.size() - 1, last.front().X_WR), 0.1);
   EXPECT_GT(last.front().mass, 0.9);
   EXPECT_LT(last.front().mass, 0.99);
+  // The other turn, and what the strange scans supported.
+  for (std::size_t i = 1; i < last.size(); ++i) EXPECT_LT(last[i].mass, 0.05);
 }
 
 }  // namespace
