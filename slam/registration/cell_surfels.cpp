@@ -156,9 +156,10 @@ Surfaces cell_surfaces(std::span<const Eigen::Vector3f> points, const CellSurfel
   Surfaces result;
   for (const Cell& cell : cells.all()) {
     const Eigen::Vector3d mean = cells.centre(cell.key) + cell.moments.mean();
-    if (const std::optional<Eigen::Vector3d> normal = normal_at(cells, cell.key, larger, config))
+    if (const std::optional<Eigen::Vector3d> normal = normal_at(cells, cell.key, larger, config)) {
       result.surfels.push_back({mean, *normal, static_cast<float>(cell.time_s / cell.moments.n)});
-    else if (is_rough(cells, cell.key, config))
+      if (config.sensor) face(result.surfels.back(), *config.sensor);
+    } else if (is_rough(cells, cell.key, config))
       result.rough_R.push_back(mean);
   }
   return result;

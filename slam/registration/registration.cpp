@@ -98,8 +98,9 @@ Normal6 linearize(std::span<const Surfel> surfels, const SurfelMap& map, const P
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector3d arm_M = R_MR * surfel.mean_R;  // from the robot to the surfel
     const Eigen::Vector3d normal_M = R_MR * surfel.normal_R;
-    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.min_normal_agreement);
-    if (voxel == nullptr) continue;
+    const std::optional<SurfelMap::Voxel> voxel =
+        map.find(arm_M + X_MR.t, normal_M, surfel.faces_sensor, config.min_normal_agreement);
+    if (!voxel) continue;
     // Both covariances are slack I - stiff n n^T, the voxel's averaged over its surfels.
     const Eigen::Matrix3d covariance = 2.0 * slack * Eigen::Matrix3d::Identity() -
                                        stiff * (voxel->normals / voxel->n + normal_M * normal_M.transpose());
@@ -129,8 +130,9 @@ Observability observability(std::span<const Surfel> surfels, const SurfelMap& ma
   std::vector<double> distances;
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector3d arm_M = R_MR * surfel.mean_R, normal_M = R_MR * surfel.normal_R;
-    const SurfelMap::Voxel* voxel = map.find(arm_M + X_MR.t, normal_M, config.min_normal_agreement);
-    if (voxel == nullptr) continue;
+    const std::optional<SurfelMap::Voxel> voxel =
+        map.find(arm_M + X_MR.t, normal_M, surfel.faces_sensor, config.min_normal_agreement);
+    if (!voxel) continue;
     // The map's normal is the mean of many; scatter of a surfel's own would pass for information.
     eigen3.computeDirect(voxel->normals);
     const Eigen::Vector3d mean_M = eigen3.eigenvectors().col(2);

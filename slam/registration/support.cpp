@@ -30,8 +30,9 @@ LeastSupported least_supported(std::span<const Surfel> surfels, const SurfelMap&
     const Eigen::Matrix3d faces = surfel.normal_R * surfel.normal_R.transpose();
     all += faces;
     const Eigen::Vector3d normal_M = R_MR * surfel.normal_R, mean_M = X_MR * surfel.mean_R;
-    const SurfelMap::Voxel* voxel = map.find(mean_M, normal_M, config.min_normal_agreement);
-    if (voxel == nullptr) continue;
+    const std::optional<SurfelMap::Voxel> voxel =
+        map.find(mean_M, normal_M, surfel.faces_sensor, config.min_normal_agreement);
+    if (!voxel) continue;
     if (std::abs(normal_M.dot(mean_M - voxel->sum / voxel->n)) < residuals * residual_m) met += faces;
   }
   // The least and the most of d^T met d / d^T all d.

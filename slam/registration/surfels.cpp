@@ -68,7 +68,9 @@ class Neighbourhood {
     Eigen::Matrix3d outer;
     outer << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     std::optional<Surfel> surfel = flat(p + mean, outer / n - mean * mean.transpose());
-    if (surfel && !scan_.time_s.empty()) surfel->time_s = scan_.time_s[centre];
+    if (!surfel) return surfel;
+    if (!scan_.time_s.empty()) surfel->time_s = scan_.time_s[centre];
+    face(*surfel, scan_.X_RL.t);
     return surfel;
   }
 
@@ -191,20 +193,42 @@ Surfaces find_surfaces(const DeskewedScan& scan, const SurfelConfig& config) {
   return result;
 }
 
-const SurfelMap::Voxel* SurfelMap::at(const VoxelKey& key) const {
-  const int slot = index_.find(key);
-  if (slot < 0) return nullptr;
-  const Voxel& voxel = voxels_[static_cast<std::size_t>(slot)];
-  return voxel.n > 0.5 ? &voxel : nullptr;
+void face(Surfel& surfel, const Eigen::Vector3d& sensor_R) {
+  // Two standard deviations of a normal of seven returns on each side, see apart_sigmas.
+  constexpr double least_cosine = 0.17;
+  const Eigen::Vector3d to_sensor = sensor_R - surfel.mean_R;
+  const double towards = surfel.normal_R.dot(to_sensor);
+  if (towards < 0.0) surfel.normal_R = -surfel.normal_R;
+  surfel.faces_sensor = std::abs(towards) > least_cosine * to_sensor.norm();
 }
 
-const SurfelMap::Voxel* SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
-                                        double min_normal_agreement) const {
-  const auto agrees = [&](const Voxel* voxel) {
-    return voxel != nullptr && normal_M.dot(voxel->normals * normal_M) >= min_normal_agreement * voxel->n;
+std::optional<SurfelMap::Voxel> SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
+                                                bool faces_sensor, double min_normal_agreement) const {
+  const auto seen_at = [&](const VoxelKey& at) -> std::optional<Voxel> {
+    const int known = index_.find(at);
+    if (known < 0) return std::nullopt;
+    const Voxel *of_a_side = nullptr, *of_unknown = nullptr;
+    for (int slot = first_[static_cast<std::size_t>(known)]; slot >= 0;) {
+      const Voxel& voxel = voxels_[static_cast<std::size_t>(slot)];
+      slot = voxel.next;
+      if (voxel.n < 0.5 || normal_M.dot(voxel.normals * normal_M) < min_normal_agreement * voxel.n) continue;
+      if (voxel.side == 0)
+        of_unknown = &voxel;
+      else if (!faces_sensor || normal_M.dot(voxel.facing) > 0.0)
+        if (of_a_side == nullptr || voxel.n > of_a_side->n) of_a_side = &voxel;
+    }
+    if (of_a_side == nullptr || of_unknown == nullptr) {
+      if (of_a_side == nullptr && of_unknown == nullptr) return std::nullopt;
+      return of_a_side != nullptr ? *of_a_side : *of_unknown;
+    }
+    Voxel both = *of_a_side;
+    both.n += of_unknown->n;
+    both.sum += of_unknown->sum;
+    both.normals += of_unknown->normals;
+    return both;
   };
   const VoxelKey key = VoxelKey::of(p_M, voxel_m_);
-  if (const Voxel* voxel = at(key); agrees(voxel)) return voxel;
+  if (const std::optional<Voxel> voxel = seen_at(key)) return voxel;
 
   struct Face {
     double distance;
@@ -220,26 +244,47 @@ const SurfelMap::Voxel* SurfelMap::find(const Eigen::Vector3d& p_M, const Eigen:
   for (std::size_t k = 1; k < faces.size(); ++k)
     for (std::size_t i = k; i > 0 && faces[i].distance < faces[i - 1].distance; --i) std::swap(faces[i], faces[i - 1]);
   for (const Face& face : faces)
-    if (const Voxel* voxel = at(face.beyond); agrees(voxel)) return voxel;
-  return nullptr;
+    if (const std::optional<Voxel> voxel = seen_at(face.beyond)) return voxel;
+  return std::nullopt;
+}
+
+std::size_t SurfelMap::slot_of(const VoxelKey& key, int side) {
+  const auto known = static_cast<std::size_t>(index_.insert(key));
+  if (known == first_.size()) first_.push_back(-1);
+  int* link = &first_[known];
+  while (*link >= 0 && voxels_[static_cast<std::size_t>(*link)].side != side)
+    link = &voxels_[static_cast<std::size_t>(*link)].next;
+  if (*link < 0) {
+    *link = static_cast<int>(voxels_.size());  // before the link may move
+    Voxel& voxel = voxels_.emplace_back();
+    voxel.side = side;
+    return voxels_.size() - 1;
+  }
+  return static_cast<std::size_t>(*link);
 }
 
 void SurfelMap::pool(std::span<const Surfel> surfels, const Pose& X_MR, double sign) {
+  // Tells the sides of any surface but those along it, by the normal alone: what was added is found again.
+  const Eigen::Vector3d oblique(0.36, 0.48, 0.80);
   const Eigen::Matrix3d R_MR = X_MR.rotation();
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector3d mean_M = R_MR * surfel.mean_R + X_MR.t;
     const Eigen::Vector3d normal_M = R_MR * surfel.normal_R;
-    const auto slot = static_cast<std::size_t>(index_.insert(VoxelKey::of(mean_M, voxel_m_)));
-    if (slot == voxels_.size()) voxels_.emplace_back();
-    Voxel& voxel = voxels_[slot];
+    const int side = !surfel.faces_sensor ? 0 : normal_M.dot(oblique) < 0.0 ? -1 : 1;
+    Voxel& voxel = voxels_[slot_of(VoxelKey::of(mean_M, voxel_m_), side)];
     const bool was_empty = voxel.n < 0.5;
     voxel.n += sign;
     voxel.sum += sign * mean_M;
     voxel.normals += sign * normal_M * normal_M.transpose();
+    if (surfel.faces_sensor) voxel.facing += sign * normal_M;
     const bool is_empty = voxel.n < 0.5;
     if (was_empty && !is_empty) ++live_;
     if (!was_empty && is_empty) --live_;
-    if (is_empty) voxel = {};
+    if (!is_empty) continue;
+    voxel.n = 0.0;
+    voxel.sum.setZero();
+    voxel.normals.setZero();
+    voxel.facing.setZero();
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,9 +41,12 @@ struct SurfelConfig {
 /// A Gaussian of the scan's surface, regularised to a plane: its covariance is in_plane^2 (I - n n^T) + across^2 n n^T.
 struct Surfel {
   Eigen::Vector3d mean_R;
-  Eigen::Vector3d normal_R;  ///< unit, sign free
-  float time_s = 0.0F;       ///< of its returns after the scan's stamp
+  Eigen::Vector3d normal_R;   ///< unit
+  float time_s = 0.0F;        ///< of its returns after the scan's stamp
+  bool faces_sensor = false;  ///< the normal points to the side that was seen; false: its sign is free
 };
+/// Turns the normal to the sensor, unless the surface is seen at such a grazing angle that its side is not sure.
+void face(Surfel& surfel, const Eigen::Vector3d& sensor_R);
 
 /// Whether a scan has few rings, but some: its neighbours are sought in the ring image then, and its edges along rings.
 [[nodiscard]] bool has_ring_image(const DeskewedScan& scan);
@@ -61,13 +65,16 @@ struct Surfaces {
 /// or of none lie in no plane and no line of sight.
 [[nodiscard]] Surfaces find_surfaces(const DeskewedScan& scan, const SurfelConfig& config);
 
-/// Gaussian voxel map in M: each voxel pools the surfels that fell into it.
+/// Gaussian voxel map in M: each voxel pools the surfels that fell into it, those of either side of a surface apart.
 class SurfelMap {
  public:
   struct Voxel {
     double n = 0.0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();      ///< of means, M
     Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();  ///< of n n^T
+    Eigen::Vector3d facing = Eigen::Vector3d::Zero();   ///< of the normals that face the sensor
+    int side = 0;                                       ///< 0: unknown, else of a plane
+    int next = -1;                                      ///< slot of what the same voxel holds of another side
   };
 
   explicit SurfelMap(double voxel_m) : voxel_m_(voxel_m) {}
@@ -77,10 +84,12 @@ class SurfelMap {
   void remove(std::span<const Surfel> surfels, const Pose& X_MR) { pool(surfels, X_MR, -1.0); }
   /// Voxel for a surfel at p_M: the one that holds it or else the neighbours behind the three nearer faces, nearest
   /// face first (ties: x, y, z), the first whose surfels agree with the normal: mean of (n . n_i)^2 >=
-  /// min_normal_agreement. nullptr when none does. Without the neighbours a floor that lies on a voxel face would come
-  /// and go.
-  [[nodiscard]] const Voxel* find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
-                                  double min_normal_agreement) const;
+  /// min_normal_agreement. Of the two sides of a surface it is the one that the normal faces or, where that is not
+  /// known, the one that more surfels made; surfels of unknown side belong to both. None when none agrees. Without the
+  /// neighbours a floor that lies on a voxel face would come and go; without the sides it would be taken for the
+  /// ceiling below.
+  [[nodiscard]] std::optional<Voxel> find(const Eigen::Vector3d& p_M, const Eigen::Vector3d& normal_M,
+                                          bool faces_sensor, double min_normal_agreement) const;
   [[nodiscard]] double voxel_m() const { return voxel_m_; }
   /// Whether most voxels were emptied by remove(); their slots stay.
   [[nodiscard]] bool holds_many_empty() const {
@@ -89,13 +98,15 @@ class SurfelMap {
   }
 
  private:
-  [[nodiscard]] const Voxel* at(const VoxelKey& key) const;
+  /// Slot for surfels of this side.
+  [[nodiscard]] std::size_t slot_of(const VoxelKey& key, int side);
   void pool(std::span<const Surfel> surfels, const Pose& X_MR, double sign);
 
   double voxel_m_;
   VoxelIndex index_;
   std::vector<Voxel> voxels_;
-  std::size_t live_ = 0;  ///< voxels that hold surfels
+  std::vector<int> first_;  ///< slot in voxels_, by that in index_
+  std::size_t live_ = 0;    ///< voxels that hold surfels
 };
 
 }  // namespace plumbline::slam

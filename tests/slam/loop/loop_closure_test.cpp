@@ -43,7 +43,7 @@ TEST(LoopClosure, MeasuresTheWayBackWithinItsSigmas) {
     Pose truth_FT;
     const Pose drift =
         Pose::from_xyz_yaw({0.1 * random.gauss(), 0.1 * random.gauss(), 0.02 * random.gauss()}, 0.02 * random.gauss());
-    const std::optional<PoseFactor> loop = walk_and_return(drift, 30.0, truth_FT);
+    const std::optional<PoseFactor> loop = walk_and_return(drift, 28.0, truth_FT);
     ASSERT_TRUE(loop.has_value()) << trial;
     EXPECT_EQ(loop->from, 0);
     EXPECT_EQ(loop->to, 3);
@@ -57,18 +57,18 @@ TEST(LoopClosure, MeasuresTheWayBackWithinItsSigmas) {
 
 TEST(LoopClosure, DoesNotBelieveLargeCorrectionsNorShortWays) {
   Pose truth_FT;
-  EXPECT_FALSE(walk_and_return(Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3), 30.0, truth_FT).has_value());
+  EXPECT_FALSE(walk_and_return(Pose::from_xyz_yaw({0.0, 0.0, 0.0}, 0.3), 28.0, truth_FT).has_value());
   EXPECT_FALSE(walk_and_return(Pose{}, 8.0, truth_FT).has_value()) << "too short a way for a loop";
 }
 
 // The same scan that closes a loop on its own storey closes none where the robot took the stairs in between.
 TEST(LoopClosure, StoreysThatLookAlikeAreNotJoined) {
   Pose truth_FT;
-  ASSERT_TRUE(walk_and_return(Pose{}, 30.0, truth_FT).has_value());
-  EXPECT_FALSE(walk_and_return(Pose{}, 30.0, truth_FT, 1).has_value());
+  ASSERT_TRUE(walk_and_return(Pose{}, 28.0, truth_FT).has_value());
+  EXPECT_FALSE(walk_and_return(Pose{}, 28.0, truth_FT, 1).has_value());
   const Pose upstairs = Pose::from_xyz_yaw({0.0, 0.0, 3.0}, 0.0);
-  EXPECT_FALSE(walk_and_return(upstairs, 30.0, truth_FT, 1).has_value());
-  EXPECT_FALSE(walk_and_return(upstairs, 30.0, truth_FT).has_value()) << "3 m up is no drift";
+  EXPECT_FALSE(walk_and_return(upstairs, 28.0, truth_FT, 1).has_value());
+  EXPECT_FALSE(walk_and_return(upstairs, 28.0, truth_FT).has_value()) << "3 m up is no drift";
 }
 
 TEST(LoopClosure, TrustedInformationOfAnUnseenDirectionIsWeak) {

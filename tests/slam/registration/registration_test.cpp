@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "bim/random/stream.h"
 #include "slam/registration/rough_points.h"
@@ -35,6 +37,51 @@ TEST(SurfelTest, LieOnTheHouseWithNormalsAcross) {
   EXPECT_GT(aligned, 0.85 * static_cast<double>(surfels.size()));  // the others stand at corners and door posts
 }
 
+// 4 m of room about a sensor that stands 0.4 m above the floor: all but the floor's far surfels are seen steeply
+// enough.
+TEST(SurfelTest, NormalsPointToTheSensor) {
+  const Pose X_WR = Pose::from_xyz_yaw({2.2, 4.0, 0.46}, 0.4);
+  const std::vector<Surfel> surfels = surfels_at(X_WR, 0.012, 1);
+  int facing = 0;
+  for (const Surfel& surfel : surfels) {
+    if (!surfel.faces_sensor) continue;
+    ++facing;
+    EXPECT_LT(surfel.normal_R.dot(surfel.mean_R), 0.25 * surfel.mean_R.norm())
+        << "a sensor 0.1 m above the robot's origin";
+  }
+  EXPECT_GT(facing, 0.7 * static_cast<double>(surfels.size()));
+}
+
+// A floor is not taken for the ceiling of the storey below, nor a wall for its other side.
+TEST(SurfelMapTest, KeepsTheSidesOfASurfaceApart) {
+  const Stream random(27, "bim.generate");
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const Eigen::Vector3d n = exp_se3(random_twist(random, k, 0.0, 3.0)).q * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d p(0.1, 0.1, 0.1);
+    const Surfel front{p, n, 0.0F, true}, back{p - 0.04 * n, -n, 0.0F, true}, unknown{p + 0.01 * n, -n, 0.0F, false};
+    SurfelMap map(0.4);
+    const auto mean_of = [&](const Surfel& surfel) -> std::optional<Eigen::Vector3d> {
+      const std::optional<SurfelMap::Voxel> voxel = map.find(surfel.mean_R, surfel.normal_R, surfel.faces_sensor, 0.9);
+      if (!voxel) return std::nullopt;
+      return voxel->sum / voxel->n;
+    };
+    map.add(std::vector{front}, Pose{});
+    EXPECT_EQ(mean_of(front), front.mean_R);
+    EXPECT_EQ(mean_of(unknown), front.mean_R) << "its side may be this one";
+    EXPECT_FALSE(mean_of(back));
+    map.add(std::vector{back, unknown}, Pose{});
+    const auto near = [](const std::optional<Eigen::Vector3d>& found, const Eigen::Vector3d& expected) {
+      return found && (*found - expected).norm() < 1e-9;
+    };
+    EXPECT_TRUE(near(mean_of(front), 0.5 * (front.mean_R + unknown.mean_R))) << "of either side";
+    EXPECT_TRUE(near(mean_of(back), 0.5 * (back.mean_R + unknown.mean_R)));
+    map.remove(std::vector{front}, Pose{});
+    EXPECT_EQ(mean_of(front), unknown.mean_R) << "which may be the front";
+    map.remove(std::vector{back, unknown}, Pose{});
+    EXPECT_FALSE(mean_of(back));
+  }
+}
+
 TEST(SurfelMapTest, RemovingTakesBackWhatWasAdded) {
   const Stream random(21, "bim.generate");
   const std::vector<Surfel> a = surfels_at(Pose::from_xyz_yaw({2.2, 4.0, 0.46}, 0.4), 0.012, 1);
@@ -47,17 +94,18 @@ TEST(SurfelMapTest, RemovingTakesBackWhatWasAdded) {
   both.add(b, Pose{});
   both.remove(a, X_MR);
   for (const Surfel& surfel : b) {
-    const SurfelMap::Voxel* x = one.find(surfel.mean_R, surfel.normal_R, 0.0);
-    const SurfelMap::Voxel* y = both.find(surfel.mean_R, surfel.normal_R, 0.0);
-    ASSERT_NE(x, nullptr);
-    ASSERT_NE(y, nullptr);
+    const std::optional<SurfelMap::Voxel> x = one.find(surfel.mean_R, surfel.normal_R, surfel.faces_sensor, 0.0);
+    const std::optional<SurfelMap::Voxel> y = both.find(surfel.mean_R, surfel.normal_R, surfel.faces_sensor, 0.0);
+    ASSERT_TRUE(x);
+    ASSERT_TRUE(y);
     EXPECT_EQ(x->n, y->n);
     EXPECT_LT((x->sum - y->sum).norm(), 1e-9);
   }
   for (const Surfel& surfel : a) {
     const Eigen::Vector3d p_M = X_MR * surfel.mean_R;
     const Eigen::Vector3d n_M = X_MR.q * surfel.normal_R;
-    EXPECT_EQ(one.find(p_M, n_M, 0.0) == nullptr, both.find(p_M, n_M, 0.0) == nullptr);
+    EXPECT_EQ(one.find(p_M, n_M, surfel.faces_sensor, 0.0).has_value(),
+              both.find(p_M, n_M, surfel.faces_sensor, 0.0).has_value());
   }
 }
 
@@ -161,8 +209,8 @@ TEST(VgicpTest, TakesNoSoffitForACeiling) {
   const Eigen::Vector3d soffit(std::sin(0.56), 0.0, std::cos(0.56));
   SurfelMap map(config.map_voxel_m);
   map.add(std::vector<Surfel>{{{0.05, 0.05, 0.05}, up}}, Pose{});
-  EXPECT_NE(map.find({0.06, 0.05, 0.05}, up, config.registration.min_normal_agreement), nullptr);
-  EXPECT_EQ(map.find({0.06, 0.05, 0.05}, soffit, config.registration.min_normal_agreement), nullptr);
+  EXPECT_TRUE(map.find({0.06, 0.05, 0.05}, up, false, config.registration.min_normal_agreement));
+  EXPECT_FALSE(map.find({0.06, 0.05, 0.05}, soffit, false, config.registration.min_normal_agreement));
 }
 
 TEST(RegistrationTest, FindsAPlantedMotionBetweenTwoScans) {
