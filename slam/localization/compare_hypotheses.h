@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "slam/localization/predicted_scan.h"

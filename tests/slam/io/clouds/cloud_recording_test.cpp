@@ -7,12 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "bim/errors.h"
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/clouds/name_order.h"
 #include "slam/io/packets/point_cloud.h"
 #include "tests/folder.h"
+#include "tests/input_error.h"
 #include "tests/slam/io/clouds/bin_file.h"
 #include "tests/slam/io/packets/made_cloud.h"
 #include "tests/slam/io/packets/packets.h"
@@ -46,6 +48,25 @@ TEST(CloudRecording, IsAScanEachTenthOfASecond) {
     before = frame.scan.stamp;
   }
   EXPECT_FALSE(recording->next(frame));
+}
+
+TEST(CloudRecording, AClockThatGoesBackByMoreThanASecondIsAnError) {
+  for (const auto& [third, scans] : {std::pair("9.5", 3), {"8.9", 2}}) {
+    const Folder folder;
+    write_clouds(folder, {"0.pcd", "1.pcd", "2.pcd", "3.pcd"});
+    write_raw(folder / "times.txt", "9.9\n10\n" + std::string(third) + "\n10.2\n");
+    const auto recording = open_cloud_folder(folder.path());
+    SensorFrame frame;
+    int read = 0;
+    const std::string error = input_error([&] {
+      while (recording->next(frame)) ++read;
+    });
+    EXPECT_EQ(read, scans) << third;
+    EXPECT_EQ(error == "no error", scans == 3) << error;
+    if (scans == 2) {
+      EXPECT_NE(error.find("2.pcd: the time of this cloud is 1100 ms before"), std::string::npos) << error;
+    }
+  }
 }
 
 TEST(CloudRecording, EndingsMayBeInCapitals) {
