@@ -188,6 +188,10 @@ double WallLayer::normalized_mahalanobis2(const Graph& graph, const PlaneNode& k
   const Eigen::Vector2d t = along(plane.plane_M);
   const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
   if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return no_match;
+  // A wall is seen at the robot's height. One of another storey stands a little aside, and would tilt it.
+  const double z = keyframe.X_MR.t.z();
+  const bool is_beside = known.z0 <= z && z <= known.z1;
+  if (!is_beside && gap({z + seen.z0, z + seen.z1}, {known.z0, known.z1}) > 0.0) return no_match;
   const double walked = walked_m - last_seen_m_[static_cast<std::size_t>(known.id)];
   const double sigma_m = config_.drift_m + config_.drift_per_m * walked;
   const double sigma_rad = config_.drift_rad + config_.drift_rad_per_m * walked;

@@ -79,6 +79,17 @@ TEST(WallLayer, StoreysThatLookAlikeShareNoWall) {
   EXPECT_EQ(walls.walls(graph, 1).size(), 2U);
 }
 
+// Upstairs, before that is known: the wall there stands a little aside, and would tilt the one below.
+TEST(WallLayer, AWallAboveIsAnotherOneUnlessItGoesOnUp) {
+  for (const double z : {0.8, 2.9}) {
+    const Pose below = Pose::from_xyz_yaw({2, 2, 0}, 0), above = Pose::from_xyz_yaw({2, 2, z}, 0);
+    Graph graph = at(below);
+    WallLayer walls({});
+    (void)walls.observe(graph, std::vector{see(below, {0, 0}, {4, 0})}, 0.0);
+    EXPECT_EQ(step(graph, walls, above, {see(above, {0, 0.02}, {4, 0.02})}), std::vector<int>{z < 1.9 ? 0 : 1}) << z;
+  }
+}
+
 TEST(WallLayer, ReportsHighWallsThatWereSeenOften) {
   const Pose X = Pose::from_xyz_yaw({2, 2, 0.5}, 0);
   Graph graph = at(X);
