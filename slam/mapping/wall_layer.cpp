@@ -33,6 +33,12 @@ Interval interval(const Eigen::Vector2d& direction, const Eigen::Vector2d& a, co
   return i;
 }
 
+/// Between an observation from X_MR and a known wall, along it, m.
+double gap_along(const PlaneNode& known, const Pose& X_MR, const PlaneObservation& seen) {
+  const Eigen::Vector2d t = along(known.plane_F);
+  return gap(interval(t, (X_MR * seen.p0_R).head<2>(), (X_MR * seen.p1_R).head<2>()), interval(t, known.p0, known.p1));
+}
+
 Eigen::Vector2d middle(const PlaneNode& wall) { return 0.5 * (wall.p0 + wall.p1); }
 
 /// Do two vertices share so much of the shorter one's length and of the lower one's height?
@@ -185,9 +191,7 @@ double WallLayer::normalized_mahalanobis2(const Graph& graph, const PlaneNode& k
     const bool near = std::abs(r.e.z()) < config_.floor_offset_m && r.e.head<2>().norm() < config_.floor_angle_rad;
     return near ? 0.0 : no_match;
   }
-  const Eigen::Vector2d t = along(plane.plane_M);
-  const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
-  if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return no_match;
+  if (gap_along(known, keyframe.X_MR, seen) > config_.max_gap_m) return no_match;
   // A wall is seen at the robot's height. One of another storey stands a little aside, and would tilt it.
   const double z = keyframe.X_MR.t.z();
   const bool is_beside = known.z0 <= z && z <= known.z1;
@@ -210,11 +214,7 @@ double WallLayer::paper_normalized_distance2(const Graph& graph, const PlaneNode
   if (axis_of(keyframe.X_MR.q * seen.plane_R.n) != axis_of(plane_M.n)) return no_match;
   const double gate = seen.points <= config_.angles_few ? config_.angles_gate_few : config_.angles_gate;
   const double e = angle_difference(keyframe.X_MR.inverse() * plane_M, seen.plane_R).norm();
-  if (seen.vertical) {
-    const Eigen::Vector2d t = along(plane_M);
-    const Interval here = interval(t, (keyframe.X_MR * seen.p0_R).head<2>(), (keyframe.X_MR * seen.p1_R).head<2>());
-    if (gap(here, interval(t, known.p0, known.p1)) > config_.max_gap_m) return no_match;
-  }
+  if (seen.vertical && gap_along(known, keyframe.X_MR, seen) > config_.max_gap_m) return no_match;
   return e * e / (gate * gate);
 }
 
@@ -366,39 +366,6 @@ bool WallLayer::add_duplicates(Graph& graph, std::span<const PlaneNode> walls, s
   bool added = false;
   for (const SameWall& pair : pairs) added |= add_duplicate(graph, *find(walls, pair.known), *find(walls, pair.found));
   return added;
-}
-
-int WallLayer::merge_duplicates(Graph& graph) {
-  int merged = 0;
-  std::vector<DuplicateFactor> open;
-  for (const DuplicateFactor& f : graph.duplicate_factors) {
-    PlaneVertex& kept = graph.planes[static_cast<std::size_t>(f.a)];
-    PlaneVertex& gone = graph.planes[static_cast<std::size_t>(f.b)];
-    if (kept.merged_into >= 0 || gone.merged_into >= 0) continue;
-    const Eigen::Vector4d e = duplicate_residual(kept.plane_M, gone.plane_M, f.anchor_M).e;
-    if (std::abs(e(3)) > config_.merge_offset_m || e.head<3>().norm() > config_.merge_angle_rad) {
-      open.push_back(f);
-      continue;
-    }
-    gone.merged_into = f.a;
-    first_seen_m_[static_cast<std::size_t>(f.a)] =
-        std::min(first_seen_m_[static_cast<std::size_t>(f.a)], first_seen_m_[static_cast<std::size_t>(f.b)]);
-    last_seen_m_[static_cast<std::size_t>(f.a)] =
-        std::max(last_seen_m_[static_cast<std::size_t>(f.a)], last_seen_m_[static_cast<std::size_t>(f.b)]);
-    // What stands apart from the one stands apart from both.
-    for (const auto& [pair, scans] : std::map(separation_votes_))
-      if (pair.first == f.b || pair.second == f.b)
-        separation_votes_[std::minmax(f.a, pair.first == f.b ? pair.second : pair.first)] += scans;
-    for (const auto& pair : std::set(far_separations_))
-      if (pair.first == f.b || pair.second == f.b)
-        far_separations_.insert(std::minmax(f.a, pair.first == f.b ? pair.second : pair.first));
-    for (PlaneFactor& factor : graph.plane_factors)
-      if (factor.plane == f.b) factor.plane = f.a;
-    ++merged;
-  }
-  graph.duplicate_factors = std::move(open);
-  if (merged > 0) unfreeze_extents();
-  return merged;
 }
 
 }  // namespace plumbline::slam

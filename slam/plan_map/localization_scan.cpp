@@ -70,7 +70,7 @@ SlotLayout layout_of(const DeskewedScan& scan) {
 }
 
 /// Elevation of each ring, rad: the mean over some of the columns; none for a ring without returns there.
-std::vector<std::optional<double>> elevations(const DeskewedScan& scan) {
+std::vector<std::optional<double>> elevations_of(const DeskewedScan& scan) {
   constexpr int most_columns = 32;
   std::vector<std::optional<double>> all(static_cast<std::size_t>(scan.rings));
   const Pose X_LR = scan.X_RL.inverse();
@@ -97,7 +97,7 @@ std::array<int, 4> beam_rings(const DeskewedScan& scan, const SlotLayout& layout
   std::array<int, 4> rings{};
   for (int k = 0; k < 4; ++k) rings[static_cast<std::size_t>(k)] = layout.rings / 2 - 1 + 2 * k;
   if (layout.rings == vlp16_rings) return rings;
-  const std::vector<std::optional<double>> known = elevations(scan);
+  const std::vector<std::optional<double>> known = elevations_of(scan);
   for (int k = 0; k < 4; ++k) {
     const double wanted = (4.0 * k - 1.0) * std::numbers::pi / 180.0;
     double nearest = std::numeric_limits<double>::infinity();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bim/errors.h"
+#include "slam/io/clock_set_back.h"
 #include "slam/io/records.h"
 
 namespace plumbline::slam {
@@ -32,10 +33,7 @@ class RecordQueue {
   bool add(const Record& record, std::string_view topic) {
     if (goes_on_before_last(record.stamp)) leave_out_last(record.stamp);
     const Nanoseconds back = last_.value_or(record.stamp) - record.stamp;
-    if (back > most_back)
-      throw InputError({}, "stamps on " + std::string(topic) + " go back by " + std::to_string(back / 1'000'000) +
-                               " ms; records that come late by at most " + std::to_string(most_back / 1'000'000) +
-                               " ms would be left out");
+    check_not_set_back(back, {}, "stamps on " + std::string(topic));
     ++read_;
     if (last_ && back == 0) ++repeated_;
     if (back > 0) {
@@ -102,7 +100,6 @@ class RecordQueue {
   }
 
  private:
-  static constexpr Nanoseconds most_back = 1'000'000'000;
   static constexpr Nanoseconds least_leap = 500'000'000;
 
   [[nodiscard]] static std::string words_of(Nanoseconds t) {

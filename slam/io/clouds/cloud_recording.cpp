@@ -13,6 +13,7 @@
 #include "bim/config/file_ending.h"
 #include "bim/config/tree.h"
 #include "bim/errors.h"
+#include "slam/io/clock_set_back.h"
 #include "slam/io/clouds/bin_cloud.h"
 #include "slam/io/clouds/cloud_file.h"
 #include "slam/io/clouds/cloud_times.h"
@@ -90,11 +91,7 @@ class CloudRecording final : public Recording {
       ++next_;
       read.scan.stamp -= origin_;
       if (stamps_.empty()) read.scan.stamp = std::max(read.scan.stamp, last_.value_or(-1) + 1);
-      if (last_ && *last_ - read.scan.stamp > most_back)
-        throw InputError({file_of(next_ - 1), 0, 0},
-                         "the time of this cloud is " + std::to_string((*last_ - read.scan.stamp) / 1'000'000) +
-                             " ms before that of the one before it; clouds that come late by at most " +
-                             std::to_string(most_back / 1'000'000) + " ms would be left out");
+      if (last_) check_not_set_back(*last_ - read.scan.stamp, {file_of(next_ - 1), 0, 0}, "times of clouds");
       if (last_ && read.scan.stamp <= *last_) {
         check_late(++late_);
         continue;
@@ -135,9 +132,6 @@ class CloudRecording final : public Recording {
   }
 
  private:
-  /// A clock that was set back; what follows belongs to another recording.
-  static constexpr Nanoseconds most_back = 1'000'000'000;
-
   [[nodiscard]] std::string file_of(std::size_t i) const { return folder_ + "/" + names_[i]; }
 
   [[nodiscard]] std::string share_of_read(std::size_t scans) const {

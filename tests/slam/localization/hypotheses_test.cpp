@@ -7,45 +7,10 @@
 #include <cmath>
 
 #include "slam/localization/global_localizer.h"
-#include "tests/slam/localization/house_plan.h"
-#include "tests/slam/localization/house_scan.h"
+#include "tests/slam/localization/twin_rooms.h"
 
 namespace plumbline::slam {
 namespace {
-
-struct TwinRooms {
-  PlanIndex index;
-  std::vector<LocalizationScan> scans;
-  std::vector<Pose2> u;
-  Pose2 here, there;  ///< the true pose and its twin at the first scan
-};
-
-TwinRooms twin_rooms_scans() {
-  const synthetic::House house = synthetic::twin_rooms();
-  TwinRooms twins{make_plan_index(synthetic::plan_of(house), "ground", {}), {}, {}, {}, {}};
-  for (int i = 0; i < 6; ++i) {
-    const Pose X_WR = Pose::from_xyz_yaw({1.5 + 0.25 * i, 1.4, 0.46}, 0.2);
-    twins.scans.push_back(synthetic::house_scan(house, X_WR, Pose{}, static_cast<std::uint64_t>(i + 1)).scan);
-    const Pose2 X_IH = heading(twins.index.X_WI.inverse() * X_WR);
-    const Pose2 before =
-        i == 0 ? X_IH : heading(twins.index.X_WI.inverse() * Pose::from_xyz_yaw({1.25 + 0.25 * i, 1.4, 0.46}, 0.2));
-    twins.u.push_back(before.inverse() * X_IH);
-    if (i > 0) continue;
-    twins.here = X_IH;
-    twins.there = heading(twins.index.X_WI.inverse() * Pose::from_xyz_yaw({10.5, 2.4, 0.46}, 0.2));
-  }
-  return twins;
-}
-
-/// Tracks the true pose through all scans, then adds its twin.
-void track_and_add_twin(const TwinRooms& twins, HypothesisSet& set) {
-  set.predict_and_update(twins.index, twins.u[0], twins.scans[0]);
-  set.add(twins.index, std::vector<StoreyPose>{{0, twins.here}});
-  for (std::size_t i = 1; i < twins.scans.size(); ++i) set.predict_and_update(twins.index, twins.u[i], twins.scans[i]);
-  Pose2 twin = twins.there;
-  for (std::size_t i = 1; i < twins.scans.size(); ++i) twin = twin * twins.u[i];
-  set.add(twins.index, std::vector<StoreyPose>{{0, twin}});
-}
 
 /// The true pose, tracked, and its twin, for which every scan was replayed.
 HypothesisSet both_twins(const TwinRooms& twins) {
@@ -153,41 +118,6 @@ TEST(Hypotheses, TheFitAlongThePathToThePresentPoseIsTheTrackedOneWhereThePoseWa
   EXPECT_NEAR(set.all().front().fit_sum, tracked.fit_sum, 0.05 * tracked.fit_sum);
   set.replay_best_agreement(twins.index);
   EXPECT_EQ(set.all().front().scans, static_cast<int>(twins.scans.size()));
-}
-
-TEST(Hypotheses, AFirstLookByFewColumnsRulesOutNothingThatAllWouldKeep) {
-  const TwinRooms twins = twin_rooms_scans();
-  HypothesisComparisonConfig hardly_telling;
-  hardly_telling.weight = 0.001;  // keeps what the default rules out
-  const auto hypotheses_after_trying_many = [&](const HypothesisComparisonConfig& comparison, int columns,
-                                                double margin) {
-    HypothesisConfig config;
-    config.screening_columns = columns;
-    config.screening_margin = margin;
-    HypothesisSet set(config, {}, {}, comparison);
-    track_and_add_twin(twins, set);
-    std::vector<StoreyPose> poses;
-    for (int x = -1; x <= 4; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int turn = 0; turn < 4; ++turn)
-          poses.push_back({0, twins.here * Pose2{{1.8 * x, 0.9 * y}, 1.57 * turn}, turn % 2 == 0});
-    set.add(twins.index, poses);
-    set.prune_and_normalize();
-    return set.all();
-  };
-  const auto expect_same = [&](const HypothesisComparisonConfig& comparison, int columns, double margin) {
-    const std::vector<PoseHypothesis> all = hypotheses_after_trying_many(comparison, 1, margin);
-    const std::vector<PoseHypothesis> few = hypotheses_after_trying_many(comparison, columns, margin);
-    ASSERT_EQ(few.size(), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      EXPECT_EQ(few[i].X_IH.t, all[i].X_IH.t);
-      EXPECT_EQ(few[i].evidence, all[i].evidence);
-    }
-  };
-  expect_same({}, 8, HypothesisConfig{}.screening_margin);
-  expect_same(hardly_telling, 8, 0.0);
-  EXPECT_LT(hypotheses_after_trying_many({}, 8, 0.0).size(), hypotheses_after_trying_many({}, 1, 0.0).size())
-      << "without a margin it rules out poses by itself";
 }
 
 TEST(Hypotheses, TwinsKeepEqualSharesAndOthersHaveNone) {
