@@ -68,7 +68,7 @@ WatchedOdometry::Tracked WatchedOdometry::by_odometry(const Scan& scan, const Mo
     const Nanoseconds before = recent_.back().scan.stamp;
     last_steps_.push_back({motion.at(before).inverse() * X_BR, scan.stamp - before});
     if (is_after_gap()) slip_.reset();
-    if (slip_ || is_last_step_unexpected()) undo_slip(scan, result);
+    if (slip_ || is_last_step_unexpected()) undo_slip(scan, X_BR, result);
     if (result.deskewed) X_OB_ = join_frames(result.X_OR, X_BR);
     if (by_scans_) return result;
     for (; !slip_ && last_steps_.size() > 1; last_steps_.pop_front())
@@ -96,7 +96,7 @@ bool WatchedOdometry::is_last_step_unexpected() const {
   return expected && (last.step.t - expected->t).norm() > sigmas * steps_.sigma_m() + least_mps * seconds(last.dt);
 }
 
-void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
+void WatchedOdometry::undo_slip(const Scan& scan, const Pose& X_BR, Tracked& by_odometry) {
   constexpr double least_m = 0.05;                  // more than registration errs by within the scans that are kept
   constexpr double undone = 0.5;                    // as in SlipWatch
   constexpr Nanoseconds enough = 300'000'000;       // longer than a slip pauses
@@ -107,6 +107,7 @@ void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
   if (!slip_) {
     slip_ = begin();
     undone_ = 0;
+    X_OB_before_slip_.reset();
     slipped_ = recent_.back().scan.stamp;
     for (std::size_t i = 0; i < recent_.size(); ++i)
       if (recent_.size() - i <= least_scans || scan.stamp - recent_[i].scan.stamp <= most_time)
@@ -120,7 +121,15 @@ void WatchedOdometry::undo_slip(const Scan& scan, Tracked& by_odometry) {
   const bool slipped =
       is_measured(found) && correction_R.norm() > least_m &&
       (unexpected_R + correction_R).norm() < undone * std::max(unexpected_R.norm(), correction_R.norm());
-  if (slipped) {
+  // One scan may be matched in a wrong place, as where the robot stops and turns at once; the next shows it.
+  const bool was_none = X_OB_before_slip_ && is_measured(found) && correction_R.norm() > least_m &&
+                        ((*X_OB_before_slip_ * X_BR).inverse() * X_OR).t.norm() < least_m;
+  if (was_none) {
+    by_odometry.X_OR = *X_OB_before_slip_ * X_BR;
+    by_odometry.deskewed = std::move(deskewed);
+    X_OB_before_slip_.reset();
+  } else if (slipped) {
+    X_OB_before_slip_ = X_OB_.value_or(Pose{});
     by_odometry.X_OR = X_OR;
     by_odometry.deskewed = std::move(deskewed);
     last_steps_.clear();

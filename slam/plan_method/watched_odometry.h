@@ -63,26 +63,27 @@ class WatchedOdometry {
   [[nodiscard]] bool is_last_step_unexpected() const;
   /// Puts a scan's pose where scan matching finds it, if that shows that the robot did not go where odometry's last
   /// steps were unexpected.
-  void undo_slip(const Scan& scan, Tracked& by_odometry);
+  void undo_slip(const Scan& scan, const Pose& X_BR, Tracked& by_odometry);
   void watch_return(const Scan& scan, const MotionBuffer& motion, const Pose& X_OR, bool silent);
 
   Calibration calibration_;
-  std::optional<Pose> X_OB_;           ///< of odometry's own frame, which is moved where it takes over again
-  std::deque<Seen> recent_;            ///< the last scans whose poses odometry gave
-  std::optional<Pose> X_OR_standing_;  ///< where odometry stands
-  int standing_ = 0;                   ///< scans
-  std::optional<Matching> beside_;     ///< while odometry is suspect
-  int beside_apart_ = 0;               ///< scans in a row that contradict odometry
-  MotionPrediction steps_;             ///< of odometry, without the last ones
-  std::deque<Step> last_steps_;        ///< one, or those since one was unexpected and slips were undone
-  std::optional<Matching> slip_;       ///< since one was
-  int undone_ = 0;                     ///< scans since then at which a slip was undone
-  Nanoseconds slipped_ = 0;            ///< stamp of the last of them, or of the scan before the first
-  std::optional<Matching> by_scans_;   ///< while it replaces odometry
-  Why why_ = Why::silent;              ///< it does
-  std::optional<Pose> X_OR_, X_BR_;    ///< at the last scan: the robot's, and odometry's own
-  int agreeing_ = 0;                   ///< scans in a row at which odometry and scan matching agree on the step
-  double agreed_m_ = 0.0;              ///< way in them, turns at 1 m/rad
+  std::optional<Pose> X_OB_;              ///< of odometry's own frame, which is moved where it takes over again
+  std::deque<Seen> recent_;               ///< the last scans whose poses odometry gave
+  std::optional<Pose> X_OR_standing_;     ///< where odometry stands
+  int standing_ = 0;                      ///< scans
+  std::optional<Matching> beside_;        ///< while odometry is suspect
+  int beside_apart_ = 0;                  ///< scans in a row that contradict odometry
+  MotionPrediction steps_;                ///< of odometry, without the last ones
+  std::deque<Step> last_steps_;           ///< one, or those since one was unexpected and slips were undone
+  std::optional<Matching> slip_;          ///< since one was
+  int undone_ = 0;                        ///< scans since then at which a slip was undone
+  std::optional<Pose> X_OB_before_slip_;  ///< before the last of them, until a scan shows that there was none
+  Nanoseconds slipped_ = 0;               ///< stamp of the last of them, or of the scan before the first
+  std::optional<Matching> by_scans_;      ///< while it replaces odometry
+  Why why_ = Why::silent;                 ///< it does
+  std::optional<Pose> X_OR_, X_BR_;       ///< at the last scan: the robot's, and odometry's own
+  int agreeing_ = 0;                      ///< scans in a row at which odometry and scan matching agree on the step
+  double agreed_m_ = 0.0;                 ///< way in them, turns at 1 m/rad
 };
 
 }  // namespace plumbline::slam
