@@ -81,10 +81,15 @@ double OdometryHealth::least_matched(const Registration& registration, const Pos
   return std::max(config_.min_matched, (confirmed ? config_.confirmed_share : config_.usual_share) * usual());
 }
 
+OdometryHealth::Reach OdometryHealth::reach(Nanoseconds dt) const {
+  const double dt_s = std::max(seconds(dt), 0.0);
+  return {config_.max_deviation_m + config_.max_acceleration_mps2 * dt_s * dt_s,
+          config_.max_deviation_rad + config_.max_turn_acceleration_radps2 * dt_s * dt_s};
+}
+
 bool OdometryHealth::is_plausible_step(const Pose& step, const ExpectedStep& expected) const {
   const double dt_s = std::max(seconds(expected.dt), 0.0);
-  const double way_m = config_.max_deviation_m + config_.max_acceleration_mps2 * dt_s * dt_s;
-  const double turn_rad = config_.max_deviation_rad + config_.max_turn_acceleration_radps2 * dt_s * dt_s;
+  const auto [way_m, turn_rad] = reach(expected.dt);
   if (expected.odometry && within(expected.odometry->step, step, way_m, turn_rad)) return true;
   if (expected.continued && within(expected.continued->step, step, way_m, turn_rad)) return true;
   if (expected.odometry || expected.continued) return false;

@@ -127,6 +127,11 @@ class OdometryHealth {
   /// Share below which a scan does not fit.
   [[nodiscard]] double least_matched(const Registration& registration, const Pose& step,
                                      const ExpectedStep& expected) const;
+  /// How far a robot can have come in dt from where its motion leads.
+  struct Reach {
+    double way_m, turn_rad;
+  };
+  [[nodiscard]] Reach reach(Nanoseconds dt) const;
   /// Whether a robot can have made this step.
   [[nodiscard]] bool is_plausible_step(const Pose& step, const ExpectedStep& expected) const;
   /// Whether this step is within the errors of what let it expect. True where nothing did.

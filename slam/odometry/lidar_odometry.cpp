@@ -83,6 +83,11 @@ class GuardedScanMatcher final : public LidarOdometry {
     sample.step = continued_pose(scan.stamp);
     sample.valid = false;
     sample.sigma_m = continued_sigma(scan.stamp - stamp_);
+    if (continued(scan.stamp)) {
+      const OdometryHealth::Reach reach = health_.reach(scan.stamp - accepted_stamp_);
+      sample.farthest_m = reach.way_m;
+      sample.farthest_rad = reach.turn_rad;
+    }
     const Pose expected = sample.step;
     Registration result = matcher_.match(scan, sample, health_.usual_matched());
     const bool from_expected = result.from_expected;  // later rounds start where it led

@@ -84,11 +84,11 @@ TwistSigma ScanTracker::twist_sigma(const Scan& scan, bool stale) const {
   constexpr double acceleration_mps2 = 2.0, turn_acceleration_radps2 = 4.0, most_s = 1.0;
   const Nanoseconds known = stale ? (stamp_ ? scan.stamp - *stamp_ : 0) : motion_.period(), sweep = sweep_time(scan);
   const double half_s = 0.5 * std::min(seconds(known), most_s);
-  // Intervals that are about a scan each are followed from scan to scan, unless a hand bends one by more than this. It
-  // does by 0.02 rad at 10 Hz, by 0.08 at 5 Hz.
+  // Odometry of about a scan each follows the motion, unless a hand bends a scan by more than this. It does by 0.02 rad
+  // at 10 Hz, by 0.08 at 5 Hz. Steps between scans do not: on corridors carried by hand half of the error was theirs.
   constexpr double dense = 1.5, bend_m = 0.18;
-  const bool apart = static_cast<double>(known) >= dense * static_cast<double>(sweep);
-  return {acceleration_mps2 * half_s, turn_acceleration_radps2 * half_s, apart ? 0.0 : bend_m};
+  const bool follows = !stale && static_cast<double>(known) < dense * static_cast<double>(sweep);
+  return {acceleration_mps2 * half_s, turn_acceleration_radps2 * half_s, follows ? bend_m : 0.0};
 }
 
 Registration ScanTracker::track_alone(const Scan& raw, DeskewedScan& scan) {

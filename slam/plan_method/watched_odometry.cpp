@@ -123,11 +123,11 @@ void WatchedOdometry::undo_slip(const Scan& scan, const Pose& X_BR, Tracked& by_
       (unexpected_R + correction_R).norm() < undone * std::max(unexpected_R.norm(), correction_R.norm());
   // One scan may be matched in a wrong place, as where the robot stops and turns at once; the next shows it.
   const bool was_none = X_OB_before_slip_ && is_measured(found) && correction_R.norm() > least_m &&
-                        ((*X_OB_before_slip_ * X_BR).inverse() * X_OR).t.norm() < least_m;
+                        ((*X_OB_before_slip_ * X_BR).inverse() * X_OR).t.norm() < undone * correction_R.norm();
   if (was_none) {
-    by_odometry.X_OR = *X_OB_before_slip_ * X_BR;
-    by_odometry.deskewed = std::move(deskewed);
     X_OB_before_slip_.reset();
+    by_odometry.X_OR = X_OR;
+    by_odometry.deskewed = std::move(deskewed);
   } else if (slipped) {
     X_OB_before_slip_ = X_OB_.value_or(Pose{});
     by_odometry.X_OR = X_OR;

@@ -85,6 +85,9 @@ Registration VgicpOdometry::match(const DeskewedScan& scan, const OdometrySample
       const bool tells_more = again.unobserved_directions < result.unobserved_directions;
       if (again.matched <= (tells_more ? about : clearly) * result.matched) return;
       if (result.correlated && again.unobserved_directions > 0) return;
+      // No robot comes so far: rooms of two storeys, or of one floor, are alike.
+      const Pose off = prediction.X_MR.inverse() * again.X_MR;
+      if (off.t.norm() > odometry.farthest_m || log_so3(off.q).norm() > odometry.farthest_rad) return;
       // What nothing measures is as well where it was expected.
       constexpr double least_slack_m = 0.1;
       const double slack_m = measured ? odometry.sigma_m : std::max(least_slack_m, odometry.sigma_m);
@@ -139,6 +142,9 @@ bool VgicpOdometry::bends(const DeskewedScan& scan) const {
 
 void VgicpOdometry::correct_sweep(const DeskewedScan& scan, const std::optional<PosePrior>& prior,
                                   const OdometrySample& odometry, Registration& result) {
+  // On open ground a scan corrected to lie flat slides over it.
+  constexpr int most_open = 1;
+  if (result.degenerate_directions > most_open) return;
   if (scan.time_s.empty() || !(scan.twist_sigma.mps > 0.0) || !bends(scan)) return;
   const std::array<RegistrationConfig, 2> configs = {scan_.fine, coarser(registration_, maps_[1].voxel_m())};
   const Vector6d twist = sweep_twist(scan_.registered, std::span(maps_).first(configs.size()), result.X_MR, prior,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -74,9 +75,12 @@ class MotionBuffer {
 
 /// What is known of a scan's pose before it is matched.
 struct OdometrySample {
-  Pose step;                               ///< of R since the scan before: where a search starts
-  bool valid = true;                       ///< false: nothing measured the step
-  double sigma_m = 0.1;                    ///< of the step in directions that surfaces leave open
+  Pose step;             ///< of R since the scan before: where a search starts
+  bool valid = true;     ///< false: nothing measured the step
+  double sigma_m = 0.1;  ///< of the step in directions that surfaces leave open
+  /// From it, of a step that a scan may be matched at which does not fit where a search starts.
+  double farthest_m = std::numeric_limits<double>::infinity();
+  double farthest_rad = std::numeric_limits<double>::infinity();
   double extrapolated_m = 0.0;             ///< standard deviations of what odometry's records do not reach ...
   double extrapolated_rad = 0.0;           ///< ... at either end of the step
   std::optional<Eigen::Quaterniond> q_OR;  ///< R's attitude in a frame whose z is up, where odometry tells it

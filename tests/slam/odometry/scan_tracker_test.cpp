@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "bim/median.h"
 #include "tests/slam/synthetic.h"
 
 namespace plumbline::slam {
@@ -31,7 +34,7 @@ TEST(ScanTracker, KnowsLessOfTheMotionDuringLongSweeps) {
   EXPECT_NEAR(second_sigma(200'000'000).radps, 0.4, 1e-6);
   EXPECT_NEAR(second_sigma(200'000'000).mps, 0.2, 1e-6);
   EXPECT_NEAR(second_sigma(500'000'000).radps, 1.0, 1e-6);
-  EXPECT_GT(second_sigma(100'000'000).least_bend_m, 0.0) << "followed from scan to scan";
+  EXPECT_EQ(second_sigma(100'000'000).least_bend_m, 0.0) << "also where one scan follows the other";
 }
 
 TEST(ScanTracker, ACopyGoesOnByItself) {
@@ -49,6 +52,32 @@ TEST(ScanTracker, ACopyGoesOnByItself) {
   const Pose by_tracker = track(tracker, 4);
   EXPECT_EQ(by_copy.t, by_tracker.t);
   EXPECT_EQ(by_copy.q.coeffs(), by_tracker.q.coeffs());
+}
+
+/// Median error of the rotation from scan to scan, rad, of LiDAR alone at 10 Hz, swayed as in a hand.
+double step_error_in_a_hand(std::uint64_t seed) {
+  synthetic::WalkConfig config{.seed = seed, .duration_s = 5.0};
+  config.vibration = 8.0;  // 6 degrees of roll, 5 of pitch, 5 cm
+  const std::vector<Eigen::Vector2d> way = synthetic::corridor_house_walk();
+  const synthetic::Recording recording = synthetic::walk(synthetic::corridor_house(), way, config);
+  ScanTracker tracker({}, recording.calibration, false);
+  std::vector<double> errors;
+  Pose X_MR, X_WR;
+  for (std::size_t k = 0; k < recording.scans.size(); ++k) {
+    DeskewedScan deskewed = tracker.deskewed(recording.scans[k]);
+    const Pose now = tracker.track(recording.scans[k], deskewed).X_MR, truth = recording.truth[k].X_FR;
+    errors.push_back(log_so3((X_WR.inverse() * truth).q.conjugate() * (X_MR.inverse() * now).q).norm());
+    X_MR = now;
+    X_WR = truth;
+  }
+  return median(errors);
+}
+
+// Half of the error in corridors that were carried by hand was that of the mean motion between two scans. Here it is
+// 0.044 to 0.051 rad without the correction, 0.024 to 0.029 with it.
+TEST(ScanTracker, CorrectsTheSwayOfAHandWithinASweep) {
+  EXPECT_LT(step_error_in_a_hand(1), 0.035);
+  EXPECT_LT(step_error_in_a_hand(2), 0.035);
 }
 
 }  // namespace

@@ -94,5 +94,27 @@ TEST(VgicpOdometry, RegistersAShareOfVeryManySurfels) {
   EXPECT_LT(found.information.diagonal().head<3>().sum(), 1.1 * most_registered * most_of_one);
 }
 
+// Where a scan fits little, other starts are tried. One that leads farther than a robot comes meanwhile leads to a
+// place that is alike, such as the room below.
+TEST(VgicpOdometry, TakesNoStartThatLeadsFartherThanARobotComes) {
+  RandomValues random(75, 0);
+  const Eigen::Vector3d size(12.0, 9.0, 3.0);
+  const double turn_rad = 0.7;
+  DeskewedScan turned = scan_of_hall(size, Eigen::Vector3d::Zero(), random);
+  for (Eigen::Vector3d& point_R : turned.point_R) point_R = exp_so3({0.0, 0.0, -turn_rad}) * point_R;
+  for (const double farthest_rad : {turn_rad + 0.1, turn_rad - 0.1}) {
+    VgicpOdometry odometry{VgicpConfig{}};
+    (void)odometry.match(scan_of_hall(size, Eigen::Vector3d::Zero(), random), {});
+    odometry.commit({}, true);
+    OdometrySample none;
+    none.valid = false;
+    none.farthest_rad = farthest_rad;
+    const Registration found = odometry.match(turned, none, 1.0);
+    const bool is_found = std::abs(log_so3(found.X_MR.q).z() - turn_rad) < 0.01;
+    EXPECT_EQ(is_found, farthest_rad > turn_rad) << log_so3(found.X_MR.q).z();
+    EXPECT_EQ(found.from_expected, farthest_rad < turn_rad);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::slam
