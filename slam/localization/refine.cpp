@@ -38,6 +38,7 @@ class StructureResiduals {
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       const double reach = scan.beams[i].range + beyond_m;
       const bool hit = hits_[i].element >= 0 && hits_[i].distance < reach;
+      may_pass_.push_back(hit && storey.structure->is_railing(hits_[i].element));
       if (!hit || !hits_[i].upright) hits_[i].element = -1;
       across_.push_back(scan.beams[i].range - (hit ? hits_[i].distance : reach));
       if (hits_[i].element >= 0) across_.back() *= std::max(std::abs(hits_[i].n.dot(rays[i].direction)), min_incidence);
@@ -50,6 +51,8 @@ class StructureResiduals {
   [[nodiscard]] int element(std::size_t i) const { return hits_[i].element; }
   /// Measured minus expected range, across the face hit, m; positive: through it.
   [[nodiscard]] double across(std::size_t i) const { return across_[i]; }
+  /// Whether what the beam should end at has bars: beside them it passes.
+  [[nodiscard]] bool may_pass(std::size_t i) const { return may_pass_[i]; }
   [[nodiscard]] const Eigen::Vector2d& n(std::size_t i) const { return hits_[i].n; }
   [[nodiscard]] double expected(std::size_t i) const { return hits_[i].distance; }
   [[nodiscard]] std::size_t size() const { return hits_.size(); }
@@ -61,6 +64,7 @@ class StructureResiduals {
   Eigen::Vector2d sensor_I_;
   std::vector<StructureHit> hits_;
   std::vector<double> across_;
+  std::vector<bool> may_pass_;
 };
 
 /// Beams of one turn that should end at one wall and are not cut short, in their order.
@@ -151,7 +155,7 @@ Agreement agreement(const StoreyIndex& storey, const Pose2& X_IH, const Localiza
   const std::size_t size = residuals.size();
   for (std::size_t i = 0; i < size; ++i) {
     const bool meets = std::abs(residuals.across(i)) <= config.inlier_m;
-    const bool penetrates = residuals.across(i) > config.inlier_m;
+    const bool penetrates = residuals.across(i) > config.inlier_m && !residuals.may_pass(i);
     inliers += meets ? 1 : 0;
     penetrating += penetrates ? 1 : 0;
     if (residuals.element(i) >= 0 && (meets || penetrates)) walls[residuals.element(i)].add(i, penetrates);

@@ -11,6 +11,7 @@
 #include "slam/localization/hypotheses.h"
 #include "tests/slam/localization/house_plan.h"
 #include "tests/slam/localization/house_scan.h"
+#include "tests/slam/plan_map/box_mesh.h"
 
 namespace plumbline::slam {
 namespace {
@@ -146,6 +147,31 @@ TEST(Refine, OpeningsAtBothEndsOfAWallAreNotOne) {
   const Agreement left = behind_openings({{0.0, 2.5}}), both = behind_openings({{0.0, 2.5}, {6.5, 9.0}});
   EXPECT_GT(both.penetration_ratio, left.penetration_ratio + 0.03);
   EXPECT_GT(both.penetration_ratio_otherwise(), 0.03);
+}
+
+// Which gap of a railing a beam passes depends on a centimetre: what ends behind it contradicts no pose.
+TEST(Refine, BeamsThatPassARailingPenetrateNothing) {
+  const synthetic::House room = synthetic::one_room(8.0, 4.0);
+  const auto railing = [](double shift_m) {
+    std::vector<Eigen::AlignedBox3d> bars;
+    for (int k = 0; k < 26; ++k) {
+      const double y = 0.5 + 0.12 * k + shift_m;
+      bars.push_back({Eigen::Vector3d(5.0, y, 0.0), Eigen::Vector3d(5.03, y + 0.03, 1.0)});
+    }
+    return bars;
+  };
+  synthetic::House built = room;
+  for (const Eigen::AlignedBox3d& bar : railing(0.04)) built.boxes.push_back({bar.min(), bar.max()});
+  bim::Plan planned = synthetic::plan_of(room);
+  for (const synthetic::Box& wall : room.boxes)
+    synthetic::add_boxes(bim::ElementKind::wall, {Eigen::AlignedBox3d(wall.min, wall.max)}, planned.structure);
+  synthetic::add_boxes(bim::ElementKind::obstacle, railing(0.0), planned.structure);
+  const PlanIndex index = make_plan_index(planned, "ground", {});
+  const Pose X_WR = Pose::from_xyz_yaw({4.4, 1.9, 0.46}, 0.3);
+  const Agreement seen = agreement(index.storeys.front(), heading(index.X_WI.inverse() * X_WR),
+                                   synthetic::house_scan(built, X_WR, Pose{}).scan, {}, {});
+  EXPECT_LT(seen.penetration_ratio, 0.01);
+  EXPECT_GT(seen.inliers, 0.5);
 }
 
 TEST(Refine, BeamResidualIsTheShiftAcrossTheWall) {

@@ -11,6 +11,7 @@
 #include "bim/random/stream.h"
 #include "slam/plan_map/plan_index.h"
 #include "tests/slam/localization/house_plan.h"
+#include "tests/slam/plan_map/box_mesh.h"
 
 namespace plumbline::slam {
 namespace {
@@ -55,25 +56,6 @@ TEST(Structure, KnowsTheGroundAndWhatBarsTheWay) {
   EXPECT_GE(storey.structure->barrier(middle, middle + Eigen::Vector3d(20.0, 0.0, 0.0)), 0);
 }
 
-/// An obstacle of boxes in a mesh, each with vertices of its own.
-void add_obstacle(const std::vector<Eigen::AlignedBox3d>& boxes, bim::BuildingMesh& mesh) {
-  bim::MeshElement element;
-  element.kind = bim::ElementKind::obstacle;
-  element.first_triangle = static_cast<int>(mesh.triangles.size());
-  for (const Eigen::AlignedBox3d& box : boxes) {
-    const int first = static_cast<int>(mesh.vertices.size());
-    for (int k = 0; k < 8; ++k) mesh.vertices.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
-    for (const Eigen::Vector4i& face :
-         {Eigen::Vector4i{0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
-      mesh.triangles.emplace_back(first + face[0], first + face[1], first + face[2]);
-      mesh.triangles.emplace_back(first + face[0], first + face[2], first + face[3]);
-    }
-  }
-  element.triangle_count = static_cast<int>(mesh.triangles.size()) - element.first_triangle;
-  mesh.element.resize(mesh.triangles.size(), static_cast<int>(mesh.elements.size()));
-  mesh.elements.push_back(element);
-}
-
 TEST(Structure, KnowsARailingByItsBars) {
   const auto box = [](double y, double width, double height) {
     return Eigen::AlignedBox3d(Eigen::Vector3d(2.0, y, 0.0), Eigen::Vector3d(2.02, y + width, height));
@@ -83,9 +65,9 @@ TEST(Structure, KnowsARailingByItsBars) {
   for (int i = 0; i < 16; ++i) railing.push_back(box(-1.0 + 0.12 * i, 0.02, 0.9));
   for (int i = 0; i < 2; ++i) two_posts.push_back(box(-1.0 + 1.8 * i, 0.02, 0.9));
   bim::BuildingMesh mesh;
-  add_obstacle(railing, mesh);
-  add_obstacle({box(-1.0, 2.0, 0.9)}, mesh);
-  add_obstacle(two_posts, mesh);
+  synthetic::add_boxes(bim::ElementKind::obstacle, railing, mesh);
+  synthetic::add_boxes(bim::ElementKind::obstacle, {box(-1.0, 2.0, 0.9)}, mesh);
+  synthetic::add_boxes(bim::ElementKind::obstacle, two_posts, mesh);
   const Structure structure(mesh);
   EXPECT_TRUE(structure.is_railing(0));
   EXPECT_FALSE(structure.is_railing(1));
