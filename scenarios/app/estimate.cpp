@@ -20,6 +20,7 @@
 #include "scenarios/app/degraded_recording.h"
 #include "scenarios/app/estimate_command.h"
 #include "scenarios/app/estimate_description.h"
+#include "scenarios/app/lidar_height.h"
 #include "scenarios/app/open_recording.h"
 #include "scenarios/app/page_attempt.h"
 #include "scenarios/app/recording_check.h"
@@ -45,7 +46,6 @@
 #include "slam/io/recordings/recording.h"
 #include "slam/io/stopwatch.h"
 #include "slam/methods.h"
-#include "slam/planes/mount_height.h"
 
 namespace plumbline::scenarios {
 
@@ -233,24 +233,6 @@ std::optional<ProcessTable> take_process(EstimateArguments& options, slam::Metho
   return ProcessTable(table, {*process}, {Mark{"--method", 0, 0}});
 }
 
-/// The height of the LiDAR above the floor, set in the calibration, and what to say where it is assumed.
-HeightSource find_height(const EstimateArguments& options, const Degradation& degradation,
-                         const slam::RecordingInfo& info, slam::MethodInput& input,
-                         std::vector<std::string>& warnings) {
-  if (info.mount.height_m) return HeightSource::description;
-  const std::optional<double> height =
-      slam::height_over_floor(*degraded(open_any_recording(options.input), degradation), input.calibration, input.seed);
-  if (height) {
-    input.calibration.sensor_height_m = *height;
-    return HeightSource::scans;
-  }
-  warnings.push_back("no scan of the first half minute shows a floor: the LiDAR is taken to be " +
-                     format_number(input.calibration.sensor_height_m) +
-                     " m above it, as that of the simulated robot; --description gives the height");
-  print_note("plumbline: warning: " + options.input.recording + ": " + warnings.back());
-  return HeightSource::assumed;
-}
-
 void warn_of_moved_plan(const EstimateArguments& options, const LoadedPlan& loaded,
                         std::vector<std::string>& warnings) {
   if (!loaded.moved_by) return;
@@ -323,6 +305,7 @@ int estimate(EstimateArguments options, slam::MethodTable table) {
   RunDirectory directory(options.out, DirectoryKind::estimate, options.force);
   const Answer answer = run_method(*recording, row, input, choice.sensors);
   warn_of_recording(options, *recording, answer.doubts, description.warnings);
+  warn_of_height(options, description.height, input.calibration.sensor_height_m, answer.record, description.warnings);
   description.scans = answer.scans;
   write_answer(directory.staging(), answer.record, loaded, describe(description, *recording, input));
   const bool paged = attempt_page(options.out, directory.staging(), [&] { write_estimate_page(directory.staging()); });

@@ -43,7 +43,10 @@ Tree with_processes_apart(Tree scenario) {
       names.push(method);
       continue;
     }
-    if (name == nullptr) throw InputError(method.mark, "a method that is a process needs a name and a command");
+    if (name == nullptr || method.find("command") == nullptr)
+      throw InputError(method.mark,
+                       "a method that is a process needs a name and a command; a built-in one is its name alone, with "
+                       "'.lidar' after it for the LiDAR alone");
     names.push(*name);
     processes.push(method);
     found = true;

@@ -171,5 +171,26 @@ TEST_F(Recordings, ARobotWhoseFrameLiesOnTheFloorStaysOnIt) {
   EXPECT_GT(count, 10);
 }
 
+// With a height that is off, no pose fits the plan. A walk that is too short shows the same.
+TEST_F(Recordings, AHeightThatIsNotGivenIsDoubtedWhereNoPoseFits) {
+  std::string scenario = read_file(input());
+  scenario.replace(scenario.find("duration_s: 5"), 13, "duration_s: 1");
+  write_file(folder_ / "walk.yaml", scenario);
+  write_file(folder_ / "short.plan.yaml", read_file(plan()));
+  const std::string good = folder_ / "good";
+  ASSERT_EQ(plumbline({"simulate", folder_ / "walk.yaml", "-o", good}).code, 0);
+  std::vector<std::string> all{"estimate", good + "/lidar.pcap", "--method", "s_graph_localization", "--plan", plan(),
+                               "-o",       folder_ / "unknown"};
+  const Outcome unknown = plumbline(all);
+  ASSERT_EQ(unknown.code, 0) << unknown.err;
+  EXPECT_NE(unknown.err.find("above the floor, which is not given"), std::string::npos) << unknown.err;
+  EXPECT_NE(read_file(folder_ / "unknown/estimate.yaml").find("which is not given"), std::string::npos);
+  all.back() = folder_ / "known";
+  all.insert(all.end(), {"--description", good + "/recording.yaml"});
+  const Outcome known = plumbline(all);
+  ASSERT_EQ(known.code, 0) << known.err;
+  EXPECT_EQ(known.err.find("which is not given"), std::string::npos) << known.err;
+}
+
 }  // namespace
 }  // namespace plumbline::system_tests

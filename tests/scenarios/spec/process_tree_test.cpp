@@ -20,6 +20,16 @@ TEST(ProcessTree, MethodsGivenAsMapsStandUnderProcesses) {
   EXPECT_THROW((void)with_processes_apart(read_yaml("methods: [{command: [./a]}]", "x")), InputError);
 }
 
+// A built-in method needs no braces.
+TEST(ProcessTree, AMethodInBracesWithoutACommandIsRefusedWithWhatWouldBeRight) {
+  try {
+    (void)with_processes_apart(read_yaml("methods: [{name: vgicp, sensors: lidar}]", "x"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'.lidar'"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ProcessTree, AFolderThatIsGivenIsSeenFromTheScenarios) {
   const Tree tree = with_process_folders(read_yaml("methods: [{name: a, command: [x]}, {name: b, command: [x], "
                                                    "folder: own}, {name: c, command: [x], folder: /whole}]",
