@@ -20,6 +20,11 @@ Tree folder_of(const Tree& process, const std::string& folder) {
   return whole;
 }
 
+/// No process says which sensors it gets.
+bool is_built_in(const Tree& method) {
+  return method.find("command") == nullptr && (method.as_map().size() == 1 || method.find("sensors") != nullptr);
+}
+
 }  // namespace
 
 std::string process_folder(const std::optional<std::string>& own, const std::string& folder) {
@@ -43,7 +48,7 @@ Tree with_processes_apart(Tree scenario) {
       names.push(method);
       continue;
     }
-    if (name == nullptr || method.find("command") == nullptr)
+    if (name == nullptr || is_built_in(method))
       throw InputError(method.mark,
                        "a method that is a process needs a name and a command; a built-in one is its name alone, with "
                        "'.lidar' after it for the LiDAR alone");
